@@ -2,7 +2,7 @@
 #include "datasets/layout.h"
 
 #include "datasets/settings.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
 

@@ -33,7 +33,7 @@ struct SceneNames {
 };
 
 /// A way in: how sequences of one kind are recognised and opened, and what holds for all of them.
-/// Each stands in a folder of its own and is listed in datasets/layouts.cpp.
+/// Each stands in a file of its own and is listed in datasets/layouts.cpp.
 struct Layout {
   using Path = const std::string&;
 
@@ -67,5 +67,46 @@ struct Layout {
 /// @param range as used, both ends set
 Sequence make_sequence(const SequenceSettings& settings, const Layout& layout,
                        const FrameRange& range);
+
+// The layouts of this room besides those of SemanticKITTI and `street`.
+
+/// Simulated scenes: each is generated into the cache unless it is there, and then read like a
+/// recorded drive in SemanticKITTI layout.
+Layout scenes_layout();
+
+/// Recordings of ROS messages: ROS 1 bags, MCAP, and what ROS 2 records. The scans are the messages
+/// of a topic; a scan's number is that of its message, from 0. Their times are those in their
+/// headers.
+Layout bags_layout();
+
+/// HeLiMOS ("HeLiMOS: A Dataset for Moving Object Segmentation in 3D Point Clouds From
+/// Heterogeneous LiDAR Sensors", 2024): a root with one folder for each sensor, in SemanticKITTI's
+/// layout
+/// (`Ouster/velodyne`, `Ouster/labels`, `Ouster/calib.txt`), and train.txt, val.txt, test.txt
+/// beside them. `ROOT:Ouster` names a sensor, and so does its folder.
+///
+/// Labels are those of moving-object segmentation: 251 moves, as do SemanticKITTI's moving classes
+/// 252 to 259, 9 does not, and 0, which nobody labelled, is ignored. A label rule that the user
+/// gives stands above that.
+Layout helimos_layout();
+
+/// Sequences of the KTH DynamicMap benchmark: `pcd/NNNNNN.pcd`, whose points stand in the world
+/// frame, and whose VIEWPOINT = tx ty tz qw qx qy qz is the pose of the sensor. `Scan::points` are
+/// T^-1 times the stored points.
+///
+/// The ground truth of this data set is `gt_cloud.pcd`, a map without scans. The intensity
+/// of the scans means different things in different releases (0 / 1 for static / moving, a raw
+/// SemanticKITTI label by value, or the strength of the return), and the files do not say which.
+/// So it is not guessed: intensity is read as a label, by value, only where a label rule is given
+/// (`labels` in sequence.json or an option, such as {"moving": [1]} for clouds with 0 / 1);
+/// otherwise there are no labels. Intensity never becomes reflectance, so that no method can see
+/// a label.
+Layout dynamicmap_layout();
+
+/// Plain folders of scans in the sensor frame (any of `cloud_formats`), in natural order of their
+/// names, with one pose of the LiDAR for each scan in `poses.txt` or the pose file named (KITTI or
+/// TUM rows). Frame numbers are positions in that order, from 0. `labels/NAME.label` is used if
+/// there is such a folder. The counts of poses and scans have to be equal.
+Layout files_layout();
 
 }  // namespace raymoval

@@ -5,12 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "datasets/bag_scans/bags_layout.h"
-#include "datasets/dynamicmap/dynamicmap.h"
-#include "datasets/files/files.h"
-#include "datasets/helimos/helimos.h"
 #include "datasets/semantickitti/semantickitti.h"
-#include "datasets/simulation/scenes_layout.h"
 #include "datasets/simulation/street/street.h"
 
 namespace raymoval {

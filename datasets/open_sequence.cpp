@@ -4,11 +4,10 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/bag_scans/bags_layout.h"
 #include "datasets/bags/bag.h"
-#include "datasets/clouds/formats.h"
-#include "datasets/deskew/deskewed_source.h"
-#include "datasets/ego/ego_free_source.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/deskew/deskew.h"
+#include "datasets/ego/ego_region.h"
 #include "datasets/layouts.h"
 
 namespace raymoval {
@@ -57,7 +56,7 @@ void check_known_files(const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder)) {
     // Both throw: a folder of recordings has no metadata.yaml, and LAZ is not read.
     if (if_whole([&] { return is_bag(entry); }) == true) (void)open_bag(folder);
-    if (entry.extension() == ".laz") (void)format_read(entry);
+    if (entry.extension() == ".laz") (void)read_layout(entry);
   }
 }
 

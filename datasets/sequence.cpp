@@ -2,9 +2,9 @@
 #include "datasets/sequence.h"
 
 #include "core/scan/local_frame.h"
-#include "datasets/deskew/deskewed_source.h"
-#include "datasets/ego/ego_free_source.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/deskew/deskew.h"
+#include "datasets/ego/ego_region.h"
+#include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
 

@@ -16,7 +16,7 @@
 #include "datasets/ego/ego_region.h"
 #include "datasets/records/record_source.h"
 #include "datasets/sequence_record.h"
-#include "datasets/trajectories/pose_lookup.h"
+#include "datasets/trajectories/trajectory.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {

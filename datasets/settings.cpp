@@ -12,8 +12,8 @@
 #include "core/name.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/clouds/format/point_layout.h"
-#include "datasets/deskew/point_times.h"
+#include "datasets/clouds/format/field_names.h"
+#include "datasets/deskew/deskew.h"
 #include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {
@@ -52,10 +52,10 @@ std::optional<std::string> text_value(const Fields& file, const std::string& key
   return file.has(key) ? std::optional(file.text(key)) : std::nullopt;
 }
 
-/// A text that `parse_time_unit` can read.
+/// A text that `seconds_of_unit` can read.
 std::string time_unit_value(const std::string& text, const std::string& where) {
   try {
-    (void)parse_time_unit(text);
+    (void)seconds_of_unit(text);
   } catch (const UsageError& error) {
     throw ConfigurationError(where + ": " + error.what());
   }
@@ -184,7 +184,7 @@ void apply_pose_options(const SequenceOptions& options, SequenceSettings& settin
   if (options.points) settings.points = options.points;
   if (options.deskew) settings.deskew = *options.deskew;
   if (!options.point_time_unit) return;
-  (void)parse_time_unit(*options.point_time_unit);  // It is wrong even where nothing needs it.
+  (void)seconds_of_unit(*options.point_time_unit);  // It is wrong even where nothing needs it.
   settings.point_time_unit = options.point_time_unit;
 }
 

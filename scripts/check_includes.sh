@@ -17,8 +17,8 @@ datasets               records clouds|fields|geometry trajectories bags ego|worl
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans helimos
 datasets               simulation layouts open_sequence inspection
-datasets/bags          bag|damage_notes chunks|messages ros1|mcap ros2 open_bag rewriting
-datasets/clouds        format pcd|ply|bin|las|numpy .
+datasets/bags          bag|bag_file|private_folder bag_index|unpack|messages ros1|mcap|ros2 open_bag
+datasets/clouds        format las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
 methods                remover calibration method_entry common

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "benchmark/clean/outputs/bag_copy.h"
 #include "benchmark/clean/outputs/label_folder.h"
 #include "benchmark/clean/outputs/map_output.h"
 #include "benchmark/clean/outputs/map_views.h"
@@ -26,16 +25,6 @@ MapContent content_of(const OutputPath& output) {
   if (output.option == "--dynamic") return {false, true, false};
   if (output.option == "--labelled") return {true, true, true};
   return {};
-}
-
-/// @throws UsageError if --scans names a recording, which scans in files cannot become
-ScanFolderPlan planned_scans(const std::vector<OutputPath>& outputs, const Sequence& sequence) {
-  for (const OutputPath& output : outputs) {
-    if (output.kind != OutputKind::kBag) continue;
-    throw UsageError(output.path.string() + ": names a recording, but the scans of '" +
-                     sequence.name + "' are no recording. Name a folder with --scans.");
-  }
-  return plan_scan_folder(sequence);
 }
 
 /// What decides about the format of a map's file or files.
@@ -78,10 +67,8 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   const bool needs_rows = std::any_of(all.begin(), all.end(), [](const OutputPath& output) {
     return output.kind != OutputKind::kLabels;
   });
-  const bool is_bag = bag_source(sequence) != nullptr;
   std::optional<ScanFolderPlan> plan;
-  if (!paths.scans.empty() && is_bag) check_bag_copy(sequence, paths.scans);
-  if (!paths.scans.empty() && !is_bag) plan = planned_scans(all, sequence);
+  if (!paths.scans.empty()) plan = plan_scan_folder(sequence);
   if (needs_rows) {
     rows_.emplace(sequence, precision.coordinates, progress, cancel);
     layout_ = writing.confidence ? layout_with_confidence(rows_->layout()) : rows_->layout();
@@ -96,12 +83,8 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
         "The map lies more than 8 km from the world's origin: its coordinates are float64.");
   }
   if (!paths.labels.empty()) outputs_.push_back(std::make_unique<LabelFolder>(paths.labels));
-  if (!paths.scans.empty() && is_bag) {
-    outputs_.push_back(std::make_unique<BagCopy>(paths.scans, sequence, cancel));
-  }
   if (plan) {
     has_own_poses_ = plan->own_poses;
-    notes_.insert(notes_.end(), plan->notes.begin(), plan->notes.end());
     auto scans = std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan));
     scans_ = scans.get();
     outputs_.push_back(std::move(scans));

@@ -16,7 +16,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/file_source.h"
-#include "datasets/clouds/formats.h"
+#include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
 namespace {
@@ -47,7 +47,6 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 std::vector<std::string> extensions_of(OutputKind kind) {
   if (kind == OutputKind::kPicture) return {".png"};
   if (kind == OutputKind::kPage) return {".html", ".htm"};
-  if (kind == OutputKind::kBag) return {".bag", ".mcap", ".db3"};
   return written_extensions();
 }
 
@@ -98,6 +97,13 @@ bool is_ours(const fs::path& entry, const fs::path& folder, OutputKind kind,
 
 void check_folder(const OutputPath& output, bool overwrite) {
   const fs::path& path = output.path;
+  const fs::path ending = path.extension();
+  if (output.kind == OutputKind::kScans &&
+      (ending == ".bag" || ending == ".mcap" || ending == ".db3")) {
+    throw UsageError(path.string() +
+                     ": recordings are not written. Name a folder with --scans, which gets a .pcd "
+                     "file for each scan and a pose file.");
+  }
   if (!is_there(path)) return;
   if (!is_folder(path)) {
     throw UsageError(path.string() + ": is no folder; " + output.option +
@@ -176,17 +182,14 @@ bool is_folder_output(OutputKind kind) {
 }
 
 std::vector<OutputPath> CleanPaths::all() const {
-  const std::vector<std::string> bags = extensions_of(OutputKind::kBag);
-  const bool is_bag = std::find(bags.begin(), bags.end(), scans.extension()) != bags.end();
   const OutputKind maps = tiled ? OutputKind::kTiles : OutputKind::kCloud;
-  std::vector<OutputPath> outputs = {
-      {"-o", map, maps},
-      {"--dynamic", removed, maps},
-      {"--labelled", labelled, maps},
-      {"--labels", labels, OutputKind::kLabels},
-      {"--scans", scans, is_bag ? OutputKind::kBag : OutputKind::kScans},
-      {"--html", page, OutputKind::kPage},
-      {"--picture", picture, OutputKind::kPicture}};
+  std::vector<OutputPath> outputs = {{"-o", map, maps},
+                                     {"--dynamic", removed, maps},
+                                     {"--labelled", labelled, maps},
+                                     {"--labels", labels, OutputKind::kLabels},
+                                     {"--scans", scans, OutputKind::kScans},
+                                     {"--html", page, OutputKind::kPage},
+                                     {"--picture", picture, OutputKind::kPicture}};
   std::erase_if(outputs, [](const OutputPath& output) { return output.path.empty(); });
   return outputs;
 }

@@ -21,7 +21,6 @@ enum class OutputKind {
   kLabels,   ///< A folder of label files.
   kTiles,    ///< A folder of tiles with a manifest.json.
   kScans,    ///< A folder of scans with a cleaned.json.
-  kBag,      ///< A file that is a recording.
 };
 
 bool is_folder_output(OutputKind kind);
@@ -39,7 +38,7 @@ struct CleanPaths {
   std::filesystem::path removed = {};   ///< Removed points as a map.
   std::filesystem::path labelled = {};  ///< All points with a field that says what became of them.
   std::filesystem::path labels = {};    ///< Folder for a label file for each scan.
-  std::filesystem::path scans = {};     ///< Folder or recording of scans without removed points.
+  std::filesystem::path scans = {};     ///< Folder of scans without removed points.
   std::filesystem::path page = {};      ///< HTML page with a 3-D view.
   std::filesystem::path picture = {};   ///< PNG from above.
   bool tiled = false;                   ///< Whether maps are folders of tiles.

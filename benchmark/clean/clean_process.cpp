@@ -14,7 +14,7 @@
 #include "core/files/part_name.h"
 #include "core/process/child_process.h"
 #include "core/progress.h"
-#include "datasets/bags/chunks/private_folder.h"
+#include "datasets/bags/private_folder.h"
 #include "methods/external/external.h"
 
 namespace raymoval {

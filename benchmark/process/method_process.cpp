@@ -14,9 +14,9 @@
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/text.h"
-#include "datasets/bags/chunks/private_folder.h"
+#include "datasets/bags/private_folder.h"
 #include "datasets/open_sequence.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 #include "methods/external/external.h"
 
 namespace raymoval {

@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/bag_scans/chain_motion.h"
 #include "datasets/bag_scans/frame_tree.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/bags/messages/pose_messages.h"

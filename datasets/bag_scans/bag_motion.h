@@ -8,7 +8,7 @@
 
 #include "datasets/bags/bag.h"
 #include "datasets/records/record_source.h"
-#include "datasets/trajectories/pose_lookup.h"
+#include "datasets/trajectories/trajectory.h"
 
 namespace raymoval {
 

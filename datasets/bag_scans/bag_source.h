@@ -39,10 +39,7 @@ class BagScanSource : public ScanSource, public RecordSource, public TalliedSour
   }
   [[nodiscard]] PointFrame point_frame() const override { return point_frame_; }
   [[nodiscard]] std::string place(std::size_t index) const override;
-  /// For those who write the bag again: its topic, and the message of scan `index` there.
   [[nodiscard]] const Bag& bag() const { return *bag_; }
-  [[nodiscard]] std::size_t topic() const { return topic_; }
-  [[nodiscard]] std::size_t message(std::size_t index) const { return scan(index).message; }
   [[nodiscard]] const LeftOutTally& tally() const override { return tally_; }
 
  private:

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bag_scans/bags_layout.h"
+#include "datasets/layout.h"
 
+#include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -11,11 +16,12 @@
 #include "datasets/bag_scans/bag_motion.h"
 #include "datasets/bag_scans/bag_source.h"
 #include "datasets/bag_scans/indexed_labels.h"
-#include "datasets/bag_scans/scan_heads.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/bags/bag.h"
 #include "datasets/bags/messages/point_cloud.h"
 #include "datasets/bags/messages/pose_messages.h"
+#include "datasets/clouds/frames.h"
+#include "datasets/records/point_records.h"
 #include "datasets/settings.h"
 #include "datasets/trajectories/pose_file.h"
 #include "datasets/trajectories/scan_poses.h"
@@ -24,6 +30,122 @@ namespace raymoval {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What the messages of a topic with scans say before their points.
+struct ScanHeads {
+  std::vector<std::size_t> messages;  ///< Numbers of those that can be used, in order.
+  std::vector<Nanoseconds> stamps;    ///< Of each of these.
+  /// The layout of the points of each of these; equal ones are one.
+  std::vector<std::shared_ptr<const RecordLayout>> layouts;
+  Nanoseconds first_stamp = 0;      ///< Of the topic's first message that can be used.
+  std::string frame;                ///< That all points are in.
+  FrameRange range;                 ///< As used, with both ends.
+  std::vector<std::string> losses;  ///< Whole sentences on messages that are left out.
+};
+
+/// Messages that are left out, by the reason.
+struct LeftOut {
+  std::size_t empty = 0, damaged = 0;
+  std::string first_damage;
+
+  [[nodiscard]] std::size_t all() const { return empty + damaged; }
+  [[nodiscard]] std::string text() const {
+    std::vector<std::string> parts;
+    if (empty > 0) parts.push_back(grouped_text(empty) + " without a point");
+    if (damaged > 0) {
+      parts.push_back(grouped_text(damaged) + " that cannot be read, the first: " + first_damage);
+    }
+    return join(parts);
+  }
+};
+
+class HeadReader {
+ public:
+  HeadReader(const Bag& bag, std::size_t topic) : bag_(bag), topic_(topic) {}
+
+  /// Nothing if the message is to be left out, which is counted.
+  std::optional<PointsHead> read(std::size_t message, LeftOut& left_out) const {
+    try {
+      PointsHead head = head_of(message);
+      if (head.header.stamp == 0) head.header.stamp = bag_.recorded(topic_, message);
+      if (head.size > 0) return head;
+      ++left_out.empty;
+    } catch (const UnreadableError&) {
+      throw;
+    } catch (const DataError& error) {
+      if (left_out.damaged++ == 0) left_out.first_damage = error.what();
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] PointsHead head_of(std::size_t message) const {
+    const BagTopic& topic = bag_.topics()[topic_];
+    const std::string place = message_place(bag_, topic_, message);
+    const auto read = [&](const std::string& bytes) {
+      return read_points_head(bytes, topic.type, topic.encoding, place);
+    };
+    const std::string begin = bag_.message_head(topic_, message, kHeaderBytes);
+    if (begin.size() < kHeaderBytes) return read(begin);
+    if (auto head = if_whole([&] { return read(begin); })) return *std::move(head);
+    return read(bag_.message(topic_, message));
+  }
+
+  const Bag& bag_;
+  std::size_t topic_;
+};
+
+/// The numbers of messages that `range` chooses.
+ChosenFrames choose_messages(const Bag& bag, std::size_t topic, const FrameRange& range) {
+  std::vector<NumberedFile> all;
+  for (std::uint64_t i = 0; i < bag.topics()[topic].messages; ++i) {
+    all.push_back({static_cast<long>(i), {}});
+  }
+  return choose_frames(all, range, bag_name(bag) + ": " + bag.topics()[topic].name);
+}
+
+/// Reads the heads of the messages that `range` chooses. Messages without a point, or that cannot
+/// be read, are left out. Those without a stamp have the time at which they were recorded.
+/// @throws DataError if the range reaches outside the topic, if half of the messages or more cannot
+///   be used, or if their frames differ; Cancelled; UnreadableError if the disk fails
+ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& range,
+                          const std::atomic<bool>* cancel) {
+  const HeadReader reader(bag, topic);
+  const ChosenFrames chosen = choose_messages(bag, topic, range);
+  ScanHeads heads;
+  heads.range = chosen.range;
+  LeftOut left_out;
+  for (const NumberedFile& file : chosen.files) {
+    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    const auto message = static_cast<std::size_t>(file.number);
+    const auto head = reader.read(message, left_out);
+    if (!head) continue;
+    if (heads.messages.empty()) {
+      heads.frame = head->header.frame_id;
+    } else if (head->header.frame_id != heads.frame) {
+      throw DataError(message_place(bag, topic, message) + ": its points are in frame '" +
+                      head->header.frame_id + "', those of earlier messages in '" + heads.frame +
+                      "'; one sensor has one frame. Filter the bag so that one is left.");
+    }
+    heads.messages.push_back(message);
+    heads.stamps.push_back(head->header.stamp);
+    const bool same = !heads.layouts.empty() && *heads.layouts.back() == head->layout;
+    heads.layouts.push_back(same ? heads.layouts.back()
+                                 : std::make_shared<const RecordLayout>(head->layout));
+  }
+  if (left_out.all() > 0) {
+    heads.losses.push_back(bag_name(bag) + ": " + bag.topics()[topic].name + ": " +
+                           counted_text(left_out.all(), "message") + " of " +
+                           grouped_text(chosen.files.size()) + " left out: " + left_out.text());
+    if (2 * left_out.all() >= chosen.files.size()) throw DataError(heads.losses.back());
+  }
+  LeftOut ignored;
+  heads.first_stamp = heads.stamps.front();
+  if (heads.messages.front() > 0) {
+    if (const auto first = reader.read(0, ignored)) heads.first_stamp = first->header.stamp;
+  }
+  return heads;
+}
 
 /// A folder may have a sequence.json; for a file the options say all.
 SequenceSettings settings_of(const fs::path& path, const SequenceOptions& options) {

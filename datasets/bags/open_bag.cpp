@@ -1,23 +1,113 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/open_bag.h"
+#include <sys/statvfs.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
 #include "core/text.h"
-#include "datasets/bags/chunks/zstandard.h"
+#include "datasets/bags/bag.h"
+#include "datasets/bags/bag_file.h"
 #include "datasets/bags/mcap/mcap_bag.h"
+#include "datasets/bags/private_folder.h"
 #include "datasets/bags/ros1/ros1_bag.h"
 #include "datasets/bags/ros2/db3_bag.h"
 #include "datasets/bags/ros2/folder_bag.h"
-#include "datasets/bags/ros2/packed_bag.h"
+#include "datasets/bags/unpack.h"
 
 namespace raymoval {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What is left free for others.
+constexpr std::uint64_t kSpare = std::uint64_t{64} << 20;
+
+/// How much may be written to `folder`.
+std::uint64_t room_in(const fs::path& folder) {
+  struct statvfs status {};
+  if (::statvfs(folder.c_str(), &status) != 0) return 0;
+  const std::uint64_t free = std::uint64_t{status.f_bavail} * status.f_frsize;
+  return free - std::min(free, kSpare);
+}
+
+/// A recording in a file that Zstandard packed as a whole. It is unpacked to a private folder when
+/// it is opened, and read there.
+class PackedBag : public Bag {
+ public:
+  using Open = std::unique_ptr<Bag> (*)(const fs::path&);
+  /// @throws DataError if the disk has no room for it, or if it unpacks to more than 1,000 times
+  ///   its bytes and 1 MiB; UnreadableError if the disk fails; what `open` throws of the file
+  ///   inside
+  PackedBag(const fs::path& path, Open open) : path_(path) {
+    const BagFile packed(path);
+    const fs::path copy = folder_.path() / without_zstd_ending(path.filename());
+    const std::uint64_t counted = std::min(packed.size(), std::uint64_t{1} << 50U);
+    const std::uint64_t most = std::min(room_in(folder_.path()), 1000 * counted + (1U << 20U));
+    FileWriter writer(copy);
+    problem_ =
+        unpack_zstd_file(packed, most, [&](std::string_view piece) { writer.append(piece); });
+    writer.commit();
+    bag_ = open(copy);
+  }
+
+  [[nodiscard]] const fs::path& path() const override { return path_; }
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return bag_->topics(); }
+  [[nodiscard]] Nanoseconds recorded(std::size_t topic, std::size_t index) const override {
+    return bag_->recorded(topic, index);
+  }
+  [[nodiscard]] std::string message(std::size_t topic, std::size_t index) const override {
+    return bag_->message(topic, index);
+  }
+  [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
+                                         std::size_t most) const override {
+    return bag_->message_head(topic, index, most);
+  }
+  [[nodiscard]] std::vector<std::string> damage() const override {
+    std::vector<std::string> all = bag_->damage();
+    if (!problem_.empty()) {
+      all.insert(all.begin(), path_.string() + ": " + problem_ + "; what stands before is read.");
+    }
+    return all;
+  }
+
+ private:
+  fs::path path_;
+  PrivateFolder folder_;
+  std::string problem_;  ///< What is wrong with the packed file, such as a cut end.
+  std::unique_ptr<Bag> bag_;
+};
+
+/// What a file is, by its first bytes.
+enum class BagContainer { kRos1, kMcap, kDb3, kZstd };
+
+/// @throws DataError if it begins as none of them; UsageError for a form that is known and not read
+BagContainer container_of(const fs::path& file) {
+  if (file.filename().string().ends_with(".bag.active")) {
+    throw UsageError(file.string() +
+                     ": is a recording that was not closed, or is being written. Copy it to a name "
+                     "that ends in .bag, `rosbag reindex` it, and name that.");
+  }
+  const std::string head = BagFile(file).read_up_to(0, 16);
+  if (head.starts_with(kRos1Magic)) return BagContainer::kRos1;
+  if (head.starts_with("#ROSBAG V1") || head.starts_with("#ROSLOG V1")) {
+    throw UsageError(file.string() + ": is a bag of version " + head.substr(9, 3) +
+                     ", from before 2010; only 2.0 is read. `rosbag fix` writes it anew.");
+  }
+  if (head.starts_with(kMcapMagic)) return BagContainer::kMcap;
+  if (head.starts_with("SQLite format 3")) return BagContainer::kDb3;
+  if (is_zstd(head)) return BagContainer::kZstd;
+  throw DataError(
+      file.string() +
+      ": does not begin as a recording does (a ROS 1 bag, MCAP, a database of SQLite, or "
+      "one of these packed by zstd); it is damaged or something else. Copy it again.");
+}
 
 /// Whether a name ends as those of recordings do.
 bool has_bag_ending(const fs::path& path) {
@@ -74,38 +164,13 @@ std::unique_ptr<Bag> open_folder(const fs::path& folder) {
 
 }  // namespace
 
-BagContainer container_of(const fs::path& file) {
-  if (file.filename().string().ends_with(".bag.active")) {
-    throw UsageError(file.string() +
-                     ": is a recording that was not closed, or is being written. Copy it to a name "
-                     "that ends in .bag, `rosbag reindex` it, and name that.");
-  }
-  const std::string head = BagFile(file).read_up_to(0, 16);
-  if (head.starts_with(kRos1Magic)) return BagContainer::kRos1;
-  if (head.starts_with("#ROSBAG V1") || head.starts_with("#ROSLOG V1")) {
-    throw UsageError(file.string() + ": is a bag of version " + head.substr(9, 3) +
-                     ", from before 2010; only 2.0 is read. `rosbag fix` writes it anew.");
-  }
-  if (head.starts_with(kMcapMagic)) return BagContainer::kMcap;
-  if (head.starts_with("SQLite format 3")) return BagContainer::kDb3;
-  if (is_zstd(head)) return BagContainer::kZstd;
-  throw DataError(
-      file.string() +
-      ": does not begin as a recording does (a ROS 1 bag, MCAP, a database of SQLite, or "
-      "one of these packed by zstd); it is damaged or something else. Copy it again.");
-}
-
-std::unique_ptr<Bag> open_any_bag(const fs::path& path) {
-  return is_folder(path) ? open_folder(without_slash(path)) : open_file(path);
-}
-
 bool is_bag(const fs::path& path) {
   if (is_folder(path)) return if_whole([&] { return has_file(path / "metadata.yaml"); }) == true;
   return has_bag_ending(path) && is_file(path);
 }
 
 std::unique_ptr<Bag> open_bag(const fs::path& path) {
-  std::unique_ptr<Bag> bag = open_any_bag(path);
+  std::unique_ptr<Bag> bag = is_folder(path) ? open_folder(without_slash(path)) : open_file(path);
   const auto& topics = bag->topics();
   const bool has_any = std::any_of(topics.begin(), topics.end(),
                                    [](const BagTopic& topic) { return topic.messages > 0; });

@@ -1,17 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/clouds/cloud_file.h"
 
+#include <utility>
+
 #include "core/error.h"
 #include "core/files/files.h"
-#include "datasets/clouds/bin/bin_file.h"
-#include "datasets/clouds/format/deflate.h"
-#include "datasets/clouds/format/point_layout.h"
-#include "datasets/clouds/pcd/pcd_header.h"
+#include "core/text.h"
+#include "datasets/clouds/format/cloud_header.h"
+#include "datasets/clouds/format/gzip.h"
 #include "datasets/clouds/poses.h"
-#include "datasets/clouds/record_file.h"
 
 namespace raymoval {
 namespace {
+
+/// Behind the ending of a file that is packed with gzip.
+constexpr const char* kPacked = ".gz";
+
+[[noreturn]] void throw_unknown(const std::filesystem::path& path,
+                                const std::vector<std::string>& known) {
+  if (path.extension() == ".laz") {
+    throw UsageError(path.string() +
+                     ": LAZ, compressed LAS, is not read or written. Unpack it first: laszip -i "
+                     "in.laz -o out.las, or pdal translate in.laz out.las.");
+  }
+  throw UsageError(path.string() + ": '" + path.extension().string() +
+                   "' is no known cloud format. Supported are: " + join(known) + ".");
+}
+
+/// The known formats, the usual first.
+const std::vector<CloudFormat>& cloud_formats() {
+  static const std::vector<CloudFormat> formats = {pcd_format(), ply_format(), bin_format(),
+                                                   las_format(), npy_format(), npz_format()};
+  return formats;
+}
 
 /// Refuses what git-lfs leaves in the place of a file that was not fetched.
 void check_no_pointer(const std::filesystem::path& path, std::string_view text) {
@@ -30,6 +51,78 @@ auto read_unpacked(const std::filesystem::path& path, const RecordReading& readi
   if (!is_packed(path)) return read(CloudBytes{path, text, reading});
   const std::string unpacked = unpack_gzip(text, path.string());
   return read(CloudBytes{path, unpacked, reading});
+}
+
+}  // namespace
+
+const std::vector<std::string>& cloud_extensions() {
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all;
+    for (const CloudFormat& format : cloud_formats()) all.push_back(format.extension);
+    for (const CloudFormat& format : cloud_formats()) all.push_back(format.extension + kPacked);
+    return all;
+  }();
+  return extensions;
+}
+
+const std::vector<std::string>& written_extensions() {
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all;
+    for (const CloudFormat& format : cloud_formats()) {
+      if (format.encoder != nullptr) all.push_back(format.extension);
+    }
+    return all;
+  }();
+  return extensions;
+}
+
+std::string cloud_extension(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  for (const std::string& extension : cloud_extensions()) {
+    if (name.size() > extension.size() && name.ends_with(extension)) return extension;
+  }
+  return "";
+}
+
+std::string cloud_stem(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  const std::string extension = cloud_extension(path);
+  return extension.empty() ? path.stem().string() : name.substr(0, name.size() - extension.size());
+}
+
+bool is_packed(const std::filesystem::path& path) {
+  return cloud_extension(path).ends_with(kPacked);
+}
+
+namespace {
+
+/// @throws UsageError naming the known endings if that of `path` is none, or is that of a format
+///   that is known and not read
+const CloudFormat& format_read(const std::filesystem::path& path) {
+  std::string extension = cloud_extension(path);
+  if (is_packed(path)) extension.resize(extension.size() - std::string_view(kPacked).size());
+  for (const CloudFormat& format : cloud_formats()) {
+    if (format.extension == extension) return format;
+  }
+  throw_unknown(path, cloud_extensions());
+}
+
+/// @throws UsageError naming the known endings if that of `path` is none
+const CloudFormat& format_written(const std::filesystem::path& path) {
+  for (const CloudFormat& format : cloud_formats()) {
+    if (format.encoder != nullptr && path.extension() == format.extension) return format;
+  }
+  throw_unknown(path, written_extensions());
+}
+
+std::unique_ptr<RecordEncoder> encoder_for(const std::filesystem::path& path,
+                                           const RecordWriting& writing) {
+  const CloudFormat& format = format_written(path);
+  if (writing.crs && !format.holds_reference_system) {
+    throw UsageError(path.string() + ": '" + format.extension +
+                     "' holds no coordinate reference system; only .las does.");
+  }
+  return format.encoder(path, writing);
 }
 
 }  // namespace
@@ -53,11 +146,6 @@ RecordLayout read_layout(const std::filesystem::path& path, const RecordReading&
   return by_itself ? format.read_layout(path, reading) : read_records(path, reading).layout;
 }
 
-void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes,
-                    const RecordReading& reading) {
-  check_bin_rows(path, bytes, bin_layout(reading.point_layout));
-}
-
 Pose read_viewpoint(const std::filesystem::path& path) {
   const auto viewpoint = parse_pcd_header(read_piece(path, 0, 65536), path).viewpoint;
   if (!viewpoint) {
@@ -65,6 +153,75 @@ Pose read_viewpoint(const std::filesystem::path& path) {
                     "tx ty tz qw qx qy qz.");
   }
   return rigid_pose(viewpoint->head<3>(), viewpoint->tail<4>(), path.string() + ": VIEWPOINT");
+}
+
+std::vector<std::string> what_is_lost(const std::filesystem::path& path,
+                                      const RecordLayout& layout) {
+  return format_written(path).lost(layout);
+}
+
+bool holds_reference_system(const std::filesystem::path& path) {
+  return format_written(path).holds_reference_system;
+}
+
+std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
+                                              const RecordLayout& layout) {
+  const CloudFormat& format = format_written(path);
+  return format.shown_intensity == nullptr ? std::nullopt : format.shown_intensity(layout);
+}
+
+void check_coordinates(const std::filesystem::path& path, Coordinates coordinates) {
+  if (coordinates == Coordinates::kFloat || path.extension() != ".bin") return;
+  throw UsageError(path.string() +
+                   ": a .bin file holds float32 numbers only, which lose more than a millimetre "
+                   "more than 8 km from the world's origin, where this map lies. Name a .pcd or "
+                   ".ply file, which then holds float64, or shift the poses.");
+}
+
+std::string whole_file(const std::filesystem::path& path, const PointRecords& records) {
+  (void)position_fields(records.layout, path.string());
+  const auto encoder = encoder_for(path, {});
+  encoder->start(records);
+  const std::string body = encoder->rows(records);
+  return encoder->head(records.size()) + body;
+}
+
+PointRecordWriter::PointRecordWriter(const std::filesystem::path& path,
+                                     const RecordWriting& writing)
+    : encoder_(encoder_for(path, writing)), file_(path) {}
+
+void PointRecordWriter::start(const RecordLayout& layout) {
+  (void)position_fields(layout, file_.path().string());
+  layout_ = layout;
+}
+
+/// What stands in the head may depend on the first points.
+void PointRecordWriter::begin(const PointRecords& first) {
+  if (std::exchange(begun_, true)) return;
+  encoder_->start(first);
+  file_.append(encoder_->head(0));
+}
+
+void PointRecordWriter::add(const PointRecords& rows) {
+  if (rows.layout.fields != layout_.fields || rows.layout.row_bytes != layout_.row_bytes) {
+    throw InternalError("points of another layout are written to " + file_.path().string());
+  }
+  points_ += rows.size();
+  if (points_ > kMostCloudPoints) {
+    throw DataError(file_.path().string() + ": more than " + grouped_text(kMostCloudPoints) +
+                    " points, which no reader takes. Nothing was changed; choose fewer frames or "
+                    "a voxel size.");
+  }
+  begin(rows);
+  file_.append(encoder_->rows(rows));
+}
+
+void PointRecordWriter::finish() {
+  PointRecords none;
+  none.layout = layout_;
+  begin(none);
+  file_.overwrite(0, encoder_->head(points_));
+  file_.sync();
 }
 
 }  // namespace raymoval

@@ -4,16 +4,35 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/files/file_writer.h"
+#include "core/files/replacements.h"
 #include "core/scan/scan.h"
-#include "datasets/clouds/format/cloud_bytes.h"
-#include "datasets/clouds/formats.h"
+#include "datasets/clouds/format/cloud_format.h"
 
 namespace raymoval {
 
-/// Reads positions and strengths of the points of a file of any known format, see `cloud_formats`.
+/// Endings of files that are read: ".pcd" and so on, also packed with gzip: ".pcd.gz".
+const std::vector<std::string>& cloud_extensions();
+
+/// Endings of files that are written piece by piece, such as maps.
+const std::vector<std::string>& written_extensions();
+
+/// The one of `cloud_extensions` that the name of `path` ends in, or an empty text.
+std::string cloud_extension(const std::filesystem::path& path);
+
+/// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
+std::string cloud_stem(const std::filesystem::path& path);
+
+/// Whether `path` names a file of points that is packed with gzip.
+bool is_packed(const std::filesystem::path& path);
+
+/// Reads positions and strengths of the points of a file of any known format, see
+/// `cloud_extensions`.
 /// @throws DataError naming the file, and the byte, point or line that is wrong; UsageError for
 ///   another extension or a point layout that cannot be
 /// @param origin metres, taken off each point in double precision before it is rounded to float32:
@@ -32,5 +51,87 @@ Pose read_viewpoint(const std::filesystem::path& path);
 ///   16
 void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes,
                     const RecordReading& reading = {});
+
+/// Refuses .bin scans whose points are of 3, 5, 6 or 7 float32 and would be read as points of 4.
+///
+/// The right width tells its columns apart: x, z and a ring are spread differently. Under a wrong
+/// width each column has a little of all. So scans are refused only if their columns differ under
+/// the other width and are alike under 4, in each of up to five scans, and if the size of every
+/// scan fits the other width. Columns are compared by the distance of Kolmogorov and Smirnov, which
+/// does not depend on the order of points, on units, or on what a column means.
+/// @param scans files of any format; those in other ones than .bin are not looked at, nor those
+/// with fewer than 2,520 numbers
+/// @throws DataError naming a scan and the width that fits, unless `reading` names the point layout
+/// @note Points of 8 float32 look like points of 4, and are not found.
+void check_bin_width(const std::vector<std::filesystem::path>& scans, const RecordReading& reading);
+
+/// Reads all fields of all points, bit for bit, of a file of any known format.
+/// @throws DataError naming the file, and the byte, point or line that is wrong; UsageError for an
+///   unknown extension
+PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading = {});
+
+/// The layout of what `read_records` gives, where the format allows that without reading the
+/// points.
+/// @throws as `read_records`, save that points are not looked at
+RecordLayout read_layout(const std::filesystem::path& path, const RecordReading& reading = {});
+
+/// What the format of `path` cannot hold of points of `layout`, in whole sentences that name the
+/// fields; none if every field goes through bit for bit. @throws UsageError for an unknown
+/// extension
+std::vector<std::string> what_is_lost(const std::filesystem::path& path,
+                                      const RecordLayout& layout);
+
+/// Whether files of the format of `path` say which coordinate reference system they are in.
+/// @throws UsageError for an unknown extension
+bool holds_reference_system(const std::filesystem::path& path);
+
+/// The field of `layout` that files of the format of `path` also show rounded, times
+/// `RecordWriting::intensity_scale`. Nothing if there is none. @throws UsageError for an unknown
+/// extension
+std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
+                                              const RecordLayout& layout);
+
+/// The bytes of a file named `path` with these points.
+/// @throws UsageError for an unknown extension; DataError as `PointRecordWriter::add`
+std::string whole_file(const std::filesystem::path& path, const PointRecords& records);
+
+/// How a cloud file holds x, y and z.
+enum class Coordinates { kFloat, kDouble };
+
+/// Refuses a format that cannot hold `coordinates`: .bin has float32 only.
+/// @throws UsageError naming the file and the remedy
+void check_coordinates(const std::filesystem::path& path, Coordinates coordinates);
+
+/// Writes points with all their fields piece by piece; only the piece at hand is in memory. The
+/// format is that of the extension. The file appears at `commit`, whole.
+class PointRecordWriter {
+ public:
+  /// Opens the file. @throws UsageError for an unknown extension or a `crs` that the format cannot
+  ///   hold, DataError if it cannot be written
+  explicit PointRecordWriter(const std::filesystem::path& path, const RecordWriting& writing = {});
+
+  /// To be called once before `add`, with the layout that all pieces have.
+  void start(const RecordLayout& layout);
+  /// @param rows of the layout given to `start`
+  /// @throws DataError when the disk is full, beyond 4,294,967,295 points, or for a coordinate that
+  ///   the format cannot hold
+  void add(const PointRecords& rows);
+  /// Ends the file and puts it on the disk, still without its name.
+  void finish();
+  /// Gives it its name, after `finish`.
+  void commit() { file_.commit(); }
+  /// The same together with others.
+  void commit_with(Replacements& together) { file_.commit_with(together); }
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+
+ private:
+  void begin(const PointRecords& first);
+
+  std::unique_ptr<RecordEncoder> encoder_;
+  FileWriter file_;
+  RecordLayout layout_;
+  std::uint64_t points_ = 0;
+  bool begun_ = false;
+};
 
 }  // namespace raymoval

@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
-#include "datasets/clouds/record_file.h"
 #include "datasets/clouds/returns.h"
 
 namespace raymoval {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/record_source.h"
 
 namespace raymoval {

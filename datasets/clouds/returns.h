@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/scan/scan.h"
-#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/record_source.h"
 
 namespace raymoval {

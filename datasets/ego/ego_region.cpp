@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/sampling.h"
 #include "core/text.h"
+#include "datasets/ego/ego_estimate.h"
 
 namespace raymoval {
 namespace {
@@ -77,6 +79,79 @@ std::string ego_region_text(const EgoRegion& region) {
         (k > 0 ? "," : "") + side_text(region.box.min()[k]) + ":" + side_text(region.box.max()[k]);
   }
   return text;
+}
+
+namespace {
+
+EgoRegion estimated_region(const ScanSource& source) {
+  constexpr std::size_t kCandidates = 400, kMostScans = 20;
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < source.size(); ++i) poses.push_back(source.pose(i));
+  std::vector<Scan> scans;
+  for (const std::size_t i :
+       poses_apart(poses, evenly_spread(poses.size(), kCandidates), kMostScans)) {
+    scans.push_back(source.load(i));
+  }
+  std::vector<const Scan*> chosen;
+  std::vector<std::vector<Surfel>> surfels;
+  for (const Scan& scan : scans) {
+    chosen.push_back(&scan);
+    surfels.push_back(find_surfels(without_near(scan.points)));
+  }
+  const EgoEstimate estimate =
+      estimate_ego(chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; });
+  if (!estimate.can_tell()) {
+    throw DataError(
+        "--drop-ego auto: only " + counted_text(estimate.scans, "scan") +
+        " a metre or more apart, but it takes five to tell what goes along with the sensor. Choose "
+        "more --frames, or say where the vehicle is: --drop-ego RADIUS or a box.");
+  }
+  return estimate.region();
+}
+
+}  // namespace
+
+EgoFreeSource::EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked)
+    : whole_(std::move(whole)), asked_(asked), sensor_(std::nullopt), tally_(whole_->size()) {}
+
+const EgoRegion& EgoFreeSource::region() const {
+  if (asked_.kind != EgoRegion::Kind::kEstimated) return asked_;
+  std::call_once(once_, [&] { region_ = estimated_region(*whole_); });
+  return region_;
+}
+
+const SensorModel& EgoFreeSource::sensor() const {
+  const SensorModel& model = whole_->sensor();
+  if (model.name != "estimated") return model;
+  return sensor_.get(size(), [this](std::size_t index) { return load(index); });
+}
+
+Scan EgoFreeSource::load(std::size_t index) const {
+  const EgoRegion& own = region();
+  Scan scan = whole_->load(index);
+  std::vector<std::uint32_t> kept;
+  kept.reserve(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!own.contains(scan.points[i].cast<double>())) kept.push_back(static_cast<std::uint32_t>(i));
+  }
+  tally_.set(index, scan.stored_point_count, scan.size() - kept.size());
+  if (kept.size() == scan.size()) return scan;
+  if (kept.empty()) {
+    throw DataError("scan " + scan.name + ": all of its " + counted_text(scan.size(), "point") +
+                    " lie in the region that --drop-ego leaves out (" + ego_region_text(own) +
+                    "). Say a smaller one.");
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    scan.points[k] = scan.points[kept[k]];
+    if (!scan.reflectance.empty()) scan.reflectance[k] = scan.reflectance[kept[k]];
+  }
+  scan.points.resize(kept.size());
+  if (!scan.reflectance.empty()) scan.reflectance.resize(kept.size());
+  for (std::uint32_t& position : kept) {
+    position = static_cast<std::uint32_t>(scan.stored_position(position));
+  }
+  scan.stored_index = std::move(kept);
+  return scan;
 }
 
 }  // namespace raymoval

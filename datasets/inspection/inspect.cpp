@@ -8,7 +8,7 @@
 #include "datasets/bag_scans/bag_source.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/evidence/point_unit.h"
+#include "datasets/inspection/evidence/pair_fit.h"
 #include "datasets/inspection/unopenable.h"
 
 namespace raymoval {

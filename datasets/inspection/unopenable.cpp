@@ -12,7 +12,7 @@
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
-#include "datasets/clouds/pcd/pcd_header.h"
+#include "datasets/clouds/format/cloud_header.h"
 #include "datasets/layouts.h"
 #include "datasets/settings.h"
 #include "datasets/trajectories/pose_file.h"

@@ -5,7 +5,7 @@
 
 #include "core/text.h"
 #include "datasets/clouds/file_source.h"
-#include "datasets/ego/ego_free_source.h"
+#include "datasets/ego/ego_region.h"
 
 namespace raymoval {
 namespace {

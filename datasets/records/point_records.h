@@ -43,16 +43,6 @@ struct RecordLayout {
   bool operator==(const RecordLayout&) const = default;
 };
 
-/// How a file stores the numbers of its points, for another file that is to be like it.
-struct StoredForm {
-  bool text = false;        ///< PCD and PLY: a line a point.
-  bool packed = false;      ///< PCD: binary_compressed. npz: deflated.
-  bool big_endian = false;  ///< PLY.
-  std::string array = "";   ///< npz: the name of the array that has the points.
-  /// npz: names of the other arrays, which no other file gets.
-  std::vector<std::string> others = {};
-};
-
 struct LasNotes;
 
 /// The points of one scan with everything that was stored of them, bit for bit: N records of
@@ -64,9 +54,8 @@ struct PointRecords {
   std::uint64_t width = 0, height = 1;
   /// PCD: tx ty tz qw qx qy qz.
   std::optional<Eigen::Matrix<double, 7, 1>> viewpoint = std::nullopt;
-  /// LAS: what its head says of the values, for a LAS file that is made of them (see las_notes.h).
+  /// LAS: what its head says of the values, for a LAS file that is made of them (see las_head.h).
   std::shared_ptr<const LasNotes> las = nullptr;
-  StoredForm form = {};  ///< Of the file that they were read from.
 
   [[nodiscard]] std::size_t size() const {
     return layout.row_bytes == 0 ? 0 : bytes.size() / layout.row_bytes;

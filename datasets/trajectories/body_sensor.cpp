@@ -9,7 +9,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/poses.h"
-#include "datasets/trajectories/pose_columns.h"
+#include "datasets/trajectories/pose_format.h"
 
 namespace raymoval {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/trajectories/pose_columns.h"
 #include "datasets/trajectories/pose_format.h"
 
 namespace raymoval::pose_formats {

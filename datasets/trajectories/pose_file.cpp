@@ -7,7 +7,6 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/poses.h"
-#include "datasets/trajectories/binary_poses.h"
 #include "datasets/trajectories/pose_format.h"
 
 namespace raymoval {
@@ -80,7 +79,7 @@ void check_times(const PoseFile& file) {
   }
 }
 
-void check_name(const std::string& name) {
+void check_format_name(const std::string& name) {
   std::vector<std::string> names;
   for (const PoseFormatName& known : pose_format_names()) names.push_back(known.name);
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
@@ -123,7 +122,7 @@ std::vector<PoseFormatName> pose_format_names() {
 PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& asked) {
   PoseReading reading = asked;
   const bool inverse = take_inverse(reading.format);
-  if (reading.format) check_name(*reading.format);
+  if (reading.format) check_format_name(*reading.format);
   auto binary = pose_formats::read_binary_poses(path, reading);
   if (!binary) {
     const PoseText text(path, read_text(path));

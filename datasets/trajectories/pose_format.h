@@ -1,13 +1,120 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "datasets/trajectories/pose_file.h"
-#include "datasets/trajectories/pose_text.h"
+#include "datasets/trajectories/stamps.h"
 
 namespace raymoval::pose_formats {
+
+/// A line that is neither empty nor a comment.
+struct TextRow {
+  std::size_t line = 0;  ///< Counted from 1.
+  std::string_view text;
+  std::vector<std::string_view> words;
+};
+
+/// A text with a row of words a line, between blanks, commas or semicolons.
+class PoseText {
+ public:
+  PoseText(std::filesystem::path path, std::string content);
+  PoseText(const PoseText&) = delete;
+  PoseText& operator=(const PoseText&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// What stands between the words of the first row: ' ', ',' or ';'.
+  [[nodiscard]] char separator() const { return separator_; }
+  /// The names above the columns, as they are written: of a first line without numbers, or of the
+  /// last comment above the numbers. It is empty if there is no such line.
+  [[nodiscard]] const std::vector<std::string_view>& names() const { return names_; }
+  /// Whether the names stand in a line of their own, which is no comment.
+  [[nodiscard]] bool has_header() const { return header_line_ > 0; }
+  /// The first row of numbers; no words if there is none.
+  [[nodiscard]] const TextRow& first() const { return first_; }
+  /// "poses.txt: line 12".
+  [[nodiscard]] std::string place(std::size_t line) const;
+
+  /// Calls `visit(TextRow)` for each row of numbers.
+  template <class Visit>
+  void for_each_row(Visit&& visit) const {
+    std::size_t number = 0;
+    TextRow row;
+    for (std::size_t at = 0; at < content_.size();) {
+      const std::size_t end = std::min(content_.find('\n', at), content_.size());
+      row.text = std::string_view(content_).substr(at, end - at);
+      at = end + 1;
+      row.line = ++number;
+      if (number == header_line_ || is_blank_or_comment(row.text)) continue;
+      split_words(row.text, row.words);
+      visit(row);
+    }
+  }
+
+  /// Word `word` of `row` as a number.
+  /// @throws DataError with file, line and column if it is none
+  [[nodiscard]] double number(const TextRow& row, std::size_t word) const;
+  /// All words of `row` as numbers.
+  [[nodiscard]] std::vector<double> numbers(const TextRow& row) const;
+
+ private:
+  static bool is_blank_or_comment(std::string_view line);
+  void split_words(std::string_view line, std::vector<std::string_view>& words) const;
+  void look_at_head();
+
+  std::filesystem::path path_;
+  std::string content_;
+  char separator_ = ' ';
+  std::vector<std::string_view> names_;
+  std::size_t header_line_ = 0;
+  TextRow first_;
+};
+
+/// How a row of numbers says a rotation.
+enum class Rotation {
+  kMatrix3x4,     ///< Twelve numbers with the position among them.
+  kMatrix4x4,     ///< Sixteen; the last four are 0 0 0 1.
+  kQuaternion,    ///< x y z w.
+  kVector,        ///< Axis times angle, radians.
+  kEulerRadians,  ///< Roll, pitch, yaw of Rz(yaw) Ry(pitch) Rx(roll).
+  kEulerDegrees,
+};
+
+/// Which of the numbers of a row mean what.
+struct PoseColumns {
+  std::size_t count = 0;           ///< Words in a row.
+  bool others_are_numbers = true;  ///< Whether words that are not used have to be numbers.
+  Rotation rotation = Rotation::kQuaternion;
+  std::size_t matrix = 0;                       ///< First number of a matrix.
+  std::array<std::size_t, 3> position = {};     ///< x y z, if there is no matrix.
+  std::array<std::size_t, 4> turn = {};         ///< The numbers of the rotation, in its order.
+  std::optional<std::size_t> time;              ///< Seconds, or as `unit` says.
+  std::optional<std::size_t> nanoseconds;       ///< To be added to whole seconds in `time`.
+  std::optional<TimeUnit> unit = std::nullopt;  ///< Nothing: to be told by the times.
+};
+
+/// The pose in a row of numbers.
+/// @throws DataError that begins with `where` for a bad quaternion or fourth row
+Eigen::Matrix<double, 3, 4> pose_matrix(const std::vector<double>& numbers,
+                                        const PoseColumns& columns, const std::string& where);
+
+/// Reads all rows of a text.
+/// @throws DataError naming file and line for a row with another count of numbers
+PoseFile read_columns(const PoseText& text, const PoseColumns& columns);
+
+/// Gives the rows of `file` their times.
+/// @param words a time for each row, and `extra` nanoseconds to be added to it, or nothing
+/// @throws DataError for what is no time
+void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
+                const std::vector<std::string_view>& extra, std::optional<TimeUnit> unit);
 
 /// How sure the content makes that a text is of a format.
 enum class Match {
@@ -29,5 +136,14 @@ std::vector<TextFormat> column_formats();
 TextFormat named_columns_format();
 /// Pose graphs of g2o.
 TextFormat g2o_format();
+
+/// The names of the forms that are no text of rows.
+std::vector<PoseFormatName> binary_format_names();
+
+/// Reads `path` if it is, or is said to be, an .npy array of matrices or a .pcd file of key poses.
+/// @return nothing if it is a text of rows
+/// @throws DataError
+std::optional<PoseFile> read_binary_poses(const std::filesystem::path& path,
+                                          const PoseReading& reading);
 
 }  // namespace raymoval::pose_formats

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "datasets/trajectories/pose_file.h"
-#include "datasets/trajectories/pose_lookup.h"
+#include "datasets/trajectories/trajectory.h"
 
 namespace raymoval {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace raymoval {
 namespace {
@@ -79,6 +79,90 @@ Pose interpolated(const Pose& a, const Pose& b, double t) {
   const Eigen::Quaterniond from(a.linear()), to(b.linear());
   pose.linear() = from.slerp(t, to).normalized().toRotationMatrix();
   return pose;
+}
+
+namespace {
+
+/// Scans without a pose, by the reason.
+struct Missing {
+  std::size_t before = 0, after = 0, in_gap = 0;
+
+  [[nodiscard]] std::size_t all() const { return before + after + in_gap; }
+  [[nodiscard]] std::string reasons() const {
+    std::vector<std::string> parts;
+    if (before > 0) parts.push_back(grouped_text(before) + " before the first pose");
+    if (after > 0) parts.push_back(grouped_text(after) + " after the last pose");
+    if (in_gap > 0) {
+      parts.push_back(grouped_text(in_gap) + " between poses that are too far apart in time");
+    }
+    return join(parts);
+  }
+};
+
+std::string range_text(Nanoseconds first, Nanoseconds last) {
+  return stamp_text(first) + " s to " + stamp_text(last) + " s";
+}
+
+/// What would help: a shift of the clock if the ranges hardly touch, a larger gap if that is the
+/// reason of most.
+std::string remedy(const std::vector<Nanoseconds>& stamps, const SensorMotion& motion,
+                   const Missing& missing) {
+  if (missing.in_gap > missing.before + missing.after) {
+    return "Say how far apart poses may be that are interpolated (--max-gap SECONDS), or take a "
+           "trajectory with a pose for each scan.";
+  }
+  const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
+  const auto [begin, end] = motion.span();
+  const Nanoseconds offset = begin + motion.time_offset() - *first;
+  const bool overlap = *first <= end && begin <= *last;
+  return (overlap ? std::string("Take the trajectory of the whole drive, or choose the scans that "
+                                "it covers with --frames. If its clock is another one, ")
+                  : std::string("Take the trajectory that belongs to these scans. If its clock is "
+                                "another one, ")) +
+         "--time-offset " + stamp_text(offset) + " lays the first scan on the first pose.";
+}
+
+}  // namespace
+
+TrajectoryMotion::TrajectoryMotion(BodyMotion body) : body_(std::move(body)) {
+  if (body_.trajectory.empty()) throw InternalError("a motion without a pose");
+}
+
+std::optional<Pose> TrajectoryMotion::at(Nanoseconds stamp) const {
+  auto pose = body_.trajectory.at(stamp + body_.time_offset, body_.max_gap);
+  if (!pose) return std::nullopt;
+  return *pose * body_.T_body_sensor;
+}
+
+std::pair<Nanoseconds, Nanoseconds> TrajectoryMotion::span() const {
+  const std::vector<StampedPose>& poses = body_.trajectory.poses();
+  return {poses.front().stamp - body_.time_offset, poses.back().stamp - body_.time_offset};
+}
+
+FoundPoses look_up_poses(const std::vector<Nanoseconds>& stamps, const SensorMotion& motion,
+                         const std::string& where) {
+  const auto [begin, end] = motion.span();
+  FoundPoses found;
+  Missing missing;
+  for (const Nanoseconds stamp : stamps) {
+    found.poses.push_back(motion.at(stamp));
+    if (found.poses.back()) continue;
+    ++(stamp < begin ? missing.before : stamp > end ? missing.after : missing.in_gap);
+  }
+  found.missing = missing.all();
+  if (found.missing == 0) return found;
+  const std::string share = grouped_text(found.missing) + " of " +
+                            counted_text(stamps.size(), "scan") +
+                            " have no pose: " + missing.reasons();
+  if (2 * found.missing >= stamps.size()) {
+    const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
+    throw DataError(where + ": " + share + ". The scans are from " + range_text(*first, *last) +
+                    ", the poses from " + range_text(begin, end) +
+                    (motion.time_offset() == 0 ? "" : " on the clock of the scans") + ". " +
+                    remedy(stamps, motion, missing));
+  }
+  found.losses.push_back(where + ": " + share + ". They are left out.");
+  return found;
 }
 
 }  // namespace raymoval

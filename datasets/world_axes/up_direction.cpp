@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/world_axes/up_direction.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "core/angle.h"
+#include "core/sampling.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/geometry/surface_patches.h"
 
 namespace raymoval {
 namespace {
@@ -55,6 +62,237 @@ std::string up_line(const UpDirection& up) {
          (up.source == UpDirection::Source::kGiven ? "as given"
                                                    : "estimated from the scans; --up z overrules") +
          ")";
+}
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kScans = 8;
+constexpr double kMostArea = 4.0;  ///< Square metres that a patch counts for at most.
+
+// The ground.
+constexpr double kLowest = 0.3, kHighest = 8.0;  ///< Metres that a sensor stands above it.
+constexpr double kNear = 20.0;                   ///< Metres from the sensor.
+constexpr double kGroundSpread = 12.0;           ///< Degrees between pieces of one ground.
+constexpr double kSensorPrior = 0.5, kWorldPrior = 0.2;
+constexpr double kLeastGround = 4.0;  ///< Square metres a scan.
+
+// Upright surfaces.
+constexpr double kCone = 30.0;  ///< Degrees that up may be away from the ground's direction.
+/// What a direction loses at the cone's edge against the ground's own, as a share of all sides.
+constexpr double kGroundPull = 0.15;
+/// What it loses in the last steps, by the squared sine of its angle to the ground's direction.
+constexpr double kFinePull = 0.005;
+constexpr double kOffGround = 30.0;  ///< Degrees from the ground's direction: no ground any more.
+constexpr double kUpright = 2.0;     ///< Degrees that upright surfaces may lean.
+
+// The decision.
+constexpr double kMeantAxis = 40.0;    ///< Degrees: so near to the ground's direction z is meant.
+constexpr double kLeastTilt = 8.0;     ///< Degrees
+constexpr double kSteepest = 30.0;     ///< Degrees, more than a vehicle's way is as a whole.
+constexpr double kLeastShare = 0.12;   ///< Of surfaces that are not ground.
+constexpr double kLeastUpright = 4.0;  ///< Square metres a scan.
+constexpr double kTimesBetter = 1.5;
+
+double cosine(double degrees) {
+  return std::cos(degrees * kDegree);
+}
+double sine(double degrees) {
+  return std::sin(degrees * kDegree);
+}
+
+/// A patch in the world's axes.
+struct Surface {
+  Vector3d normal = Vector3d::UnitZ();  ///< Towards the sensor.
+  Vector3d from_sensor = Vector3d::Zero();
+  double weight = 0.0;
+};
+
+struct Surfaces {
+  std::vector<Surface> all;
+  Vector3d sensor_z = Vector3d::Zero();  ///< Mean.
+  double scans = 0.0;
+};
+
+Surfaces collect(const ScanSource& scans) {
+  Surfaces surfaces;
+  const std::vector<std::size_t> chosen = evenly_spread(scans.size(), kScans);
+  for (const std::size_t index : chosen) {
+    const Scan scan = scans.load(index);
+    const Matrix3d turn = scan.T_world_sensor.linear();
+    for (const SurfacePatch& patch : surface_patches(scan)) {
+      surfaces.all.push_back(
+          {turn * patch.normal, turn * patch.mean, std::min(patch.area, kMostArea)});
+    }
+    surfaces.sensor_z += turn.col(2) / static_cast<double>(chosen.size());
+    surfaces.scans += 1.0;
+  }
+  return surfaces;
+}
+
+/// Of a bump that is 1 at 0 and 0 from `reach` on.
+double bump(double value, double reach) {
+  const double share = 1.0 - value * value / (reach * reach);
+  return share > 0.0 ? share * share : 0.0;
+}
+
+/// What lies below the sensor if up is `up`, and faces it.
+double ground_weight(const Surface& surface, const Vector3d& up) {
+  const double below = -surface.from_sensor.dot(up);
+  if (below < kLowest || below > kHighest || surface.from_sensor.norm() > kNear) return 0.0;
+  const double along = surface.normal.dot(up);
+  if (along < cosine(kGroundSpread)) return 0.0;
+  return surface.weight * (along - cosine(kGroundSpread)) / (1.0 - cosine(kGroundSpread));
+}
+
+/// Mean direction that the ground faces if it faces about `up`. @param support square metres
+Vector3d refined_ground(const Surfaces& surfaces, const Vector3d& up, double& support) {
+  Vector3d sum = Vector3d::Zero();
+  support = 0.0;
+  for (const Surface& surface : surfaces.all) {
+    const double weight = ground_weight(surface, up);
+    sum += weight * surface.normal;
+    support += weight;
+  }
+  return support > 0.0 ? sum.normalized() : up;
+}
+
+/// About evenly spaced directions within `cone` degrees of `axis`, `axis` first.
+std::vector<Vector3d> directions_around(const Vector3d& axis, double cone, double step) {
+  const Matrix3d turn = turn_to_z(axis).transpose();
+  std::vector<Vector3d> directions = {axis};
+  for (double polar = step; polar <= cone + 1e-9; polar += step) {
+    const int count = std::max(6, static_cast<int>(std::lround(360.0 * sine(polar) / step)));
+    for (int k = 0; k < count; ++k) {
+      const double azimuth = 360.0 * kDegree * k / count;
+      directions.push_back(turn * Vector3d(sine(polar) * std::cos(azimuth),
+                                           sine(polar) * std::sin(azimuth), cosine(polar)));
+    }
+  }
+  return directions;
+}
+
+/// Zero if there is none.
+Vector3d find_ground(const Surfaces& surfaces) {
+  Vector3d best = Vector3d::Zero();
+  double most = 0.0, area = 0.0;
+  for (const Vector3d& up : directions_around(Vector3d::UnitZ(), 180.0, 6.0)) {
+    double support = 0.0;
+    refined_ground(surfaces, up, support);
+    const double score =
+        support * (1.0 + kSensorPrior * up.dot(surfaces.sensor_z) + kWorldPrior * up.z());
+    if (score <= most) continue;
+    most = score;
+    area = support;
+    best = up;
+  }
+  if (area < kLeastGround * surfaces.scans) return Vector3d::Zero();
+  for (int k = 0; k < 5; ++k) best = refined_ground(surfaces, best, area);
+  return best;
+}
+
+/// Surfaces that are not the ground.
+struct Sides {
+  std::vector<Surface> all;
+  double area = 0.0;
+
+  /// Area of those that stand upright if up is `up`. @param reach degrees
+  [[nodiscard]] double upright(const Vector3d& up, double reach) const {
+    const double limit = sine(reach);
+    double sum = 0.0;
+    for (const Surface& side : all) sum += side.weight * bump(side.normal.dot(up), limit);
+    return sum;
+  }
+
+  /// The direction by which those that are about upright under `up` lean the least (squared sines).
+  [[nodiscard]] Vector3d least_leaning(const Vector3d& up, const Vector3d& ground) const {
+    const double limit = sine(kUpright);
+    // What sides leave open, the ground decides.
+    Matrix3d moments = kFinePull * area * (Matrix3d::Identity() - ground * ground.transpose());
+    for (const Surface& side : all) {
+      const double weight = side.weight * bump(side.normal.dot(up), limit);
+      moments += weight * side.normal * side.normal.transpose();
+    }
+    const Vector3d axis = Eigen::SelfAdjointEigenSolver<Matrix3d>(moments).eigenvectors().col(0);
+    return axis.dot(up) < 0.0 ? Vector3d(-axis) : axis;
+  }
+};
+
+Sides sides_of(const Surfaces& surfaces, const Vector3d& ground) {
+  Sides sides;
+  for (const Surface& surface : surfaces.all) {
+    if (std::abs(surface.normal.dot(ground)) > cosine(kOffGround)) continue;
+    sides.all.push_back(surface);
+    sides.area += surface.weight;
+  }
+  return sides;
+}
+
+/// The direction that most sides are parallel to. The ground's direction breaks ties: sides that
+/// all face one way do not say how far up leans along them.
+Vector3d find_upright(const Sides& sides, const Vector3d& ground) {
+  Vector3d best = ground;
+  const auto search = [&](double cone, double step, double reach) {
+    double most = -1e300;
+    Vector3d found = best;
+    for (const Vector3d& up : directions_around(best, cone, step)) {
+      const double away = std::acos(std::clamp(up.dot(ground), -1.0, 1.0)) / (kCone * kDegree);
+      const double score = sides.upright(up, reach) - kGroundPull * sides.area * away * away;
+      if (score <= most) continue;
+      most = score;
+      found = up;
+    }
+    best = found;
+  };
+  search(kCone, 3.0, 2.5 * kUpright);
+  search(3.0, 1.0, 1.5 * kUpright);
+  for (int k = 0; k < 10; ++k) best = sides.least_leaning(best, ground);
+  return best;
+}
+
+Vector3d axis_meant(const Vector3d& ground) {
+  if (ground.z() >= cosine(kMeantAxis)) return Vector3d::UnitZ();
+  Eigen::Index axis = 0;
+  ground.cwiseAbs().maxCoeff(&axis);
+  return Vector3d::Unit(axis) * (ground[axis] < 0.0 ? -1.0 : 1.0);
+}
+
+}  // namespace
+
+GravityEvidence estimate_gravity(const ScanSource& scans) {
+  GravityEvidence evidence;
+  const Surfaces surfaces = collect(scans);
+  evidence.ground = find_ground(surfaces);
+  if (evidence.ground.isZero()) return evidence;
+  const Vector3d axis = axis_meant(evidence.ground);
+  const Sides sides = sides_of(surfaces, evidence.ground);
+  evidence.upright = find_upright(sides, evidence.ground);
+  bool clear = evidence.ground.dot(axis) < cosine(kSteepest);
+  if (sides.area > 0.0) {
+    const double agree = sides.upright(evidence.upright, kUpright);
+    evidence.share_upright = agree / sides.area;
+    evidence.share_axis = sides.upright(axis, kUpright) / sides.area;
+    clear |= evidence.share_upright >= kLeastShare && agree >= kLeastUpright * surfaces.scans &&
+             evidence.share_upright >= kTimesBetter * evidence.share_axis;
+  }
+  const bool tilted = evidence.upright.dot(axis) < cosine(kLeastTilt);
+  evidence.up.direction = tilted && clear ? evidence.upright : axis;
+  if (!evidence.up.is_world_z()) evidence.up.source = UpDirection::Source::kEstimated;
+  return evidence;
+}
+
+UpChoice::UpChoice(const std::optional<Eigen::Vector3d>& given) {
+  if (!given) return;
+  up_ = UpDirection{*given, UpDirection::Source::kGiven};
+}
+
+const UpDirection& UpChoice::get(const ScanSource& scans) const {
+  std::call_once(once_, [&] {
+    if (!up_) up_ = estimate_gravity(scans).up;
+  });
+  return *up_;
 }
 
 }  // namespace raymoval

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scan/scan.h"
-#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "python/module/shared_object.h"
 
 namespace raymoval::python {

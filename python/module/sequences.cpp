@@ -10,7 +10,7 @@
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/settings.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 #include "python/module/bindings.h"
 #include "python/module/interruptible.h"
 

@@ -45,7 +45,7 @@ while read -r page file; do
     holds "$page: $file has '$line'" grep -qF -- "$line" "$source_folder/$file"
   done < <(page_text "$page" | sed -n 's/^    //p')
 done <<'END'
-docs/add-data-set.md datasets/dynamicmap/dynamicmap.cpp
+docs/add-data-set.md datasets/dynamicmap.cpp
 docs/add-protocol.md tests/eval/toy_protocol.h
 END
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "datasets/ego/ego_free_source.h"
+#include "datasets/ego/ego_region.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

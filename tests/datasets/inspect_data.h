@@ -11,7 +11,7 @@
 
 #include "datasets/inspection/inspect.h"
 #include "datasets/simulation/scene/simulated.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 #include "tests/datasets/temporary_folder.h"
 
 namespace raymoval::test {

@@ -23,20 +23,6 @@ Pose to_camera() {
   return C;
 }
 
-/// The rotation rebuilt from its roll, pitch and yaw, each times `factor`.
-Pose with_angles_times(const Pose& pose, double factor) {
-  const Eigen::Matrix3d R = pose.linear();
-  const double roll = std::atan2(R(2, 1), R(2, 2)), pitch = std::asin(-R(2, 0)),
-               yaw = std::atan2(R(1, 0), R(0, 0));
-  Pose result = pose;
-  result.linear() = (Eigen::AngleAxisd(factor * yaw, Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(factor * pitch, Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(factor * roll, Eigen::Vector3d::UnitX()))
-                        .toRotationMatrix();
-  return result;
-}
-
-/// All poses turned, so that the drive starts with a heading far from zero.
 void turn_world(EditedSequence& drive, double yaw) {
   Pose turn = Pose::Identity();
   turn.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -235,19 +221,6 @@ TEST_CASE("points in camera axes are told by the ground", "[inspect][slow]") {
   both.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
   check_finds(points.inspected(), "camera-frame", "Points of a camera frame");
   check_finds(both.inspected(), "camera-frame", "Points of a camera frame");
-}
-
-TEST_CASE("angles in the wrong unit are named, whatever the first heading", "[inspect][slow]") {
-  for (const double heading : {0.0, 1.9, -2.8}) {
-    EditedSequence degrees = good_drive();
-    turn_world(degrees, heading);
-    degrees.each_pose([](const Pose& pose) { return with_angles_times(pose, 1.0 / kDegree); });
-    check_finds(degrees.inspected(), "degrees-for-radians", "pi/180");
-  }
-  EditedSequence radians = good_drive();
-  turn_world(radians, 1.0);
-  radians.each_pose([](const Pose& pose) { return with_angles_times(pose, kDegree); });
-  check_finds(radians.inspected(), "radians-for-degrees", "180/pi");
 }
 
 TEST_CASE("millimetres and kilometres are named, in points and in poses", "[inspect][slow]") {

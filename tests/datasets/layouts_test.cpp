@@ -2,10 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/clouds/cloud_writer.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/loaded_data.h"
 #include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/written_cloud.h"
 
 using namespace raymoval;
 using namespace raymoval::test;

@@ -38,14 +38,6 @@ def write_ros1(path, messages, closed=True, **options):
                 copy.write(under_way.read())
 
 
-def read_ros1(path):
-    """By rosbag."""
-    import rosbag  # pylint: disable=import-outside-toplevel
-    with rosbag.Bag(path) as bag:
-        return [(topic, time.to_nsec(), message[1])
-                for topic, message, time in bag.read_messages(raw=True)]
-
-
 # --- MCAP ---
 def mcap_file(path, messages, packing="", profile="ros2", **options):
     named = ros2_type if profile == "ros2" else str
@@ -62,19 +54,9 @@ def write_mcap(*files):
     return done.returncode == 0
 
 
-def read_mcap(path, indexed):
-    done = subprocess.run(["node", SCRIPT, "read", path, "indexed" if indexed else "stream"],
-                          text=True, capture_output=True, check=False)
-    if done.returncode != 0:
-        print(done.stderr, file=sys.stderr)
-        return None
-    return [(one["topic"], int(one["time"]), bytes.fromhex(one["hex"]))
-            for one in json.loads(done.stdout)]
-
-
 # --- ROS 2's databases and folders ---
-def zstd(data, *direction):
-    return subprocess.run(["zstd", "-c", *direction], input=data, stdout=subprocess.PIPE,
+def zstd(data):
+    return subprocess.run(["zstd", "-c"], input=data, stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, check=True).stdout
 
 
@@ -101,14 +83,6 @@ def write_db3(path, messages, packed=False):
                          (topics.index((topic, kind)) + 1, stamp, zstd(data) if packed else data))
     database.commit()
     database.close()
-
-
-def read_db3(path, packed=False):
-    database = sqlite3.connect(path)
-    rows = database.execute("SELECT name, timestamp, data FROM messages JOIN topics "
-                            "ON topics.id = topic_id ORDER BY messages.id").fetchall()
-    database.close()
-    return [(topic, stamp, zstd(data, "-d") if packed else data) for topic, stamp, data in rows]
 
 
 def write_metadata(folder, storage, files, mode="", version=5):

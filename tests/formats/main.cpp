@@ -5,7 +5,6 @@
 //   raymoval_formats convert IN OUT [POINT_LAYOUT]    writes the records of IN to OUT
 //   raymoval_formats like IN OUT                      writes them in the form that IN has
 //   raymoval_formats sequence PATH [OPTION=VALUE...]  the scans of a sequence with their poses
-//   raymoval_formats rewrite IN OUT                   copies a recording without each second point
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,10 +15,8 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/bags/bag.h"
-#include "datasets/bags/messages/cut_points.h"
 #include "datasets/bags/messages/point_cloud.h"
-#include "datasets/bags/rewriting/rewrite_bag.h"
-#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 
@@ -103,19 +100,6 @@ void sequence(const std::string& path, const std::map<std::string, std::string>&
   std::printf("%s\n", all.dump().c_str());
 }
 
-void rewrite(const std::string& from, const std::string& to) {
-  const auto topics = raymoval::open_bag(from)->topics();
-  const auto change = [&](std::size_t topic, std::size_t /*index*/, const std::string& message) {
-    const auto& about = topics.at(topic);
-    if (!raymoval::has_points(about.type)) return std::optional(message);
-    const auto points = raymoval::read_points(message, about.type, about.encoding, from).size();
-    std::vector<std::uint8_t> keep(points);
-    for (std::size_t i = 0; i < points; i += 2) keep[i] = 1;
-    return std::optional(raymoval::without_points(message, about.type, about.encoding, keep, from));
-  };
-  raymoval::rewrite_bag(from, to, change);
-}
-
 /// @return whether there is such a command with these words
 bool run(const std::vector<std::string>& words) {
   const std::string command = words.empty() ? "" : words[0];
@@ -129,8 +113,6 @@ bool run(const std::vector<std::string>& words) {
     convert(words[1], words[2], reading);
   } else if (command == "like") {
     write_like(words[1], words[2]);
-  } else if (command == "rewrite") {
-    rewrite(words[1], words[2]);
   } else if (command == "sequence") {
     std::map<std::string, std::string> options;
     for (std::size_t i = 2; i < words.size(); ++i) {
@@ -151,7 +133,7 @@ int main(int count, char** words) {
     if (run({words + 1, words + count})) return 0;
     std::fprintf(
         stderr,
-        "expected: dump FILE, convert IN OUT, like IN OUT, sequence PATH or rewrite IN OUT\n");
+        "expected: dump FILE, convert IN OUT, like IN OUT or sequence PATH\n");
     return 2;
   } catch (const raymoval::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

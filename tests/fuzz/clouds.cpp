@@ -5,10 +5,10 @@
 #include "benchmark/result/removals/removal_files.h"
 #include "core/scan/label_rule.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/cloud_writer.h"
 #include "datasets/clouds/file_source.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
+#include "tests/datasets/written_cloud.h"
 
 namespace raymoval::fuzz {
 namespace {
@@ -21,7 +21,7 @@ bool same_bytes(const std::vector<Value>& a, const std::vector<Value>& b) {
 
 void write_and_read(const Cloud& cloud, const std::string& name) {
   const auto path = input_file(name, "");
-  write_cloud(path, cloud.points, cloud.intensity);
+  test::write_cloud(path, cloud.points, cloud.intensity);
   const Cloud again = read_cloud(path);
   require(same_bytes(cloud.points, again.points), "points change when written and read");
   require(cloud.intensity.empty() || same_bytes(cloud.intensity, again.intensity),

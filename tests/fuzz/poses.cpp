@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "datasets/deskew/point_times.h"
+#include "datasets/deskew/deskew.h"
 #include "datasets/trajectories/body_sensor.h"
 #include "datasets/trajectories/pose_file.h"
 #include "datasets/trajectories/stamps.h"

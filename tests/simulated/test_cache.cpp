@@ -18,8 +18,7 @@
 #include "core/files/file_lock.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
-#include "datasets/simulation/scene/making_place.h"
-#include "datasets/simulation/scene/scene_folder.h"
+#include "datasets/simulation/scene/scene_writer.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/datasets/unreadable.h"
@@ -27,7 +26,6 @@
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
-using raymoval::simulated::MakingPlace;
 using raymoval::simulated::small_town;
 using raymoval::test::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -194,11 +192,11 @@ TEST_CASE("What a killed process left goes, and what may be alive or another's s
   fs::create_directories(cache);
   const fs::path target = cache / "town-0123456789abcdef";
   in_killed_process([&] {
-    auto* place = new MakingPlace(target);
-    std::ofstream(place->folder() / "half") << "written";
+    auto* part = new Part(new_part_folder(target));
+    std::ofstream(part->place / "half") << "written";
   });
   REQUIRE(entries_of(cache).size() == 1);
-  const MakingPlace alive(target);
+  const Part alive = new_part_folder(target);
   // Made under another kernel: its lock cannot be asked here.
   std::string elsewhere = new_part_name(target).string();
   char& digit = elsewhere[elsewhere.rfind("raymoval-") + 9];
@@ -217,37 +215,17 @@ TEST_CASE("What a killed process left goes, and what may be alive or another's s
   REQUIRE(held.take(FileLock::Mode::kExclusive) == FileLock::State::kHeld);
 
   const fs::path made = cached_simulation(small_town(), scratch.text(), 1, nullptr);
-  CHECK(fs::is_directory(alive.folder()));
+  CHECK(fs::is_directory(alive.place));
   for (const fs::path& other : others) CHECK(fs::is_directory(other));
   CHECK(fs::exists(cache / "film.mkv.part"));
   CHECK(fs::exists(cache / "held.lock"));
   CHECK(entries_of(cache).size() == 1 + others.size() + 3);  // alive, the film, the lock
 
   // A scene that is there already is a use of the cache, too.
-  in_killed_process([&] { new MakingPlace(target); });
+  in_killed_process([&] { new Part(new_part_folder(target)); });
   std::ofstream(cache / "dead.lock") << "process 1 on somewhere\n";
   CHECK(cached_simulation(small_town(), scratch.text(), 1, nullptr) == made);
   CHECK(entries_of(cache).size() == 1 + others.size() + 3);
-}
-
-TEST_CASE("A place that is made never takes the name of something that is there") {
-  const TemporaryFolder scratch;
-  const fs::path target = scratch / "town";
-  {
-    MakingPlace place(target);
-    std::ofstream(place.folder() / "new") << "1";
-    fs::create_directory(target);
-    std::ofstream(target / "other") << "2";
-    CHECK_FALSE(place.take_place());
-    CHECK(fs::exists(target / "other"));
-    CHECK(place.replace_target());
-    CHECK(fs::exists(target / "new"));
-    CHECK_FALSE(fs::exists(target / "other"));
-  }
-  CHECK(entries_of(scratch.text()).size() == 1);
-  MakingPlace second(scratch / "second");
-  CHECK(second.take_place());
-  CHECK(fs::is_directory(scratch / "second"));
 }
 
 TEST_CASE("Who asks for a scene that another one makes waits for it, and may be stopped") {

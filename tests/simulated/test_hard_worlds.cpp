@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "datasets/simulation/world/queue.h"
+#include "datasets/simulation/world/path.h"
 #include "datasets/simulation/world/world_file.h"
 #include "tests/simulated/scenes.h"
 

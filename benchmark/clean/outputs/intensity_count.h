@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
 

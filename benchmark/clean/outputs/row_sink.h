@@ -6,7 +6,7 @@
 
 #include "benchmark/clean/rows/map_rows.h"
 #include "core/files/replacements.h"
-#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
 

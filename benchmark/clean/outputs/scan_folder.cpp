@@ -11,10 +11,9 @@
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
-#include "datasets/clouds/formats.h"
 #include "datasets/clouds/frames.h"
-#include "datasets/clouds/record_file.h"
 #include "datasets/layouts.h"
 
 namespace raymoval {
@@ -37,31 +36,22 @@ std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) 
   return relative;
 }
 
+/// The name of the file that a cleaned scan gets: that of the scan, without compression. What is
+/// in an archive becomes an array, and what is in no file a .pcd file.
+fs::path written_name(const FileScanSource* files, const Scan& scan) {
+  if (files == nullptr) return scan.name + ".pcd";
+  const fs::path& path = files->frames()[scan.index].path;
+  std::string extension = cloud_extension(path);
+  if (is_packed(path)) extension = fs::path(extension).stem().string();
+  return cloud_stem(path) + (extension == ".npz" ? ".npy" : extension);
+}
+
 /// All scans of a sequence have one format, and the same fields.
-void check_format(const FrameEntry& frame, const RecordLayout& layout) {
-  const std::vector<std::string> lost = what_is_lost(frame.path, layout);
+void check_format(const fs::path& file, const RecordLayout& layout) {
+  const std::vector<std::string> lost = what_is_lost(file, layout);
   if (lost.empty()) return;
   throw UsageError("--scans cannot write the scans as they are: " + join(lost, " ") +
                    " Write a map with -o, which may have another format.");
-}
-
-/// What is said of archives that hold more than the points.
-std::vector<std::string> archive_notes(const StoredForm& form) {
-  if (form.others.empty()) return {};
-  return {"--scans: of each archive only the array '" + form.array +
-          "' is written; the others, such as '" + form.others.front() +
-          "', do not say which of their rows belong to a point."};
-}
-
-/// Refuses what cannot be written, and says what is left out. An archive is read once for both.
-std::vector<std::string> format_notes(const Sequence& sequence, const FrameEntry& first) {
-  if (!cloud_extension(first.path).starts_with(".npz")) {
-    check_format(first, sequence.records->layout(0));
-    return {};
-  }
-  const PointRecords records = sequence.records->records(0);
-  check_format(first, records.layout);
-  return archive_notes(records.form);
 }
 
 std::vector<fs::path> side_files(const Sequence& sequence, const fs::path& root) {
@@ -108,18 +98,24 @@ const FileScanSource* stored_files(const Sequence& sequence) {
 
 ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
   const FileScanSource* source = stored_files(sequence);
-  if (source == nullptr || sequence.records == nullptr) {
+  if (sequence.records == nullptr) {
     throw UsageError("--scans writes scans in the format in which they are stored, but those of '" +
                      sequence.name +
                      "' are not stored in files of their own. Write a map with -o.");
   }
+  Scan first;
+  first.name = "000000";
+  check_format(written_name(source, first), sequence.records->layout(0));
   ScanFolderPlan plan;
+  if (source == nullptr) {  // A recording.
+    plan.own_poses = true;
+    return plan;
+  }
   plan.root = source->frames().front().path.parent_path();
   if (!layout_of(sequence).scan_folder.empty()) {
     plan.scans = plan.root.filename();
     plan.root = plan.root.parent_path();
   }
-  plan.notes = format_notes(sequence, source->frames().front());
   plan.copies = side_files(sequence, plan.root);
   const std::size_t stored = list_files(plan.root / plan.scans, cloud_extensions()).size();
   plan.own_poses = sequence.layout == "files" && stored != source->size();
@@ -173,13 +169,15 @@ void ScanFolder::write_labels(const fs::path& labels, const std::vector<std::uin
 }
 
 void ScanFolder::add(const CleanedScan& scan) {
-  const FrameEntry& frame = stored_files(sequence_)->frames()[scan.scan.index];
+  const FileScanSource* files = stored_files(sequence_);
   const std::vector<std::uint8_t> keep = kept_rows(scan);
   const PointRecords kept = scan.stored->chosen(keep);
   if (kept.size() == 0) empty_.push_back(scan.scan.name);
-  const fs::path name = plan_.scans / frame.path.filename();
+  const fs::path name = plan_.scans / written_name(files, scan.scan);
   put(name, whole_file(name, kept));
-  if (!frame.label_path.empty()) write_labels(frame.label_path, keep);
+  if (files != nullptr && !files->frames()[scan.scan.index].label_path.empty()) {
+    write_labels(files->frames()[scan.scan.index].label_path, keep);
+  }
   pose_rows_ += pose_row(scan.scan);
 }
 

@@ -27,16 +27,16 @@ struct ScanFolderPlan {
   /// Whether the folder gets a pose file of its own, with a row for each scan, because rows of the
   /// sequence's file belong to scans that are not written.
   bool own_poses = false;
-  std::vector<std::string> notes = {};  ///< Whole sentences on what is not written.
 };
 
-/// @throws UsageError naming what cannot be written: a sequence that is not read from files, or a
-///   format that is only read, or that would lose something
+/// Scans of a recording become .pcd files.
+/// @throws UsageError naming what cannot be written: a simulated sequence, or a format that is only
+///   read, or that would lose something
 ScanFolderPlan plan_scan_folder(const Sequence& sequence);
 
 /// The scans of a sequence without the points that were removed or left out: the same names, the
-/// same format and form (text, compressed, packed), all fields bit for bit, with their poses, times
-/// and calibration, and labels of the points that are left where the sequence has labels.
+/// same format (binary and not compressed), all fields bit for bit, with their poses, times and
+/// calibration, and labels of the points that are left where the sequence has labels.
 /// `cleaned.json` lists the files.
 class ScanFolder : public CleanOutput {
  public:

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scan/scan_source.h"
-#include "datasets/clouds/cloud_writer.h"
+#include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
 

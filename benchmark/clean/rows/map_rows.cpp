@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/clouds/las/las_notes.h"
+#include "datasets/clouds/las/las_head.h"
 #include "datasets/records/number_types.h"
 
 namespace raymoval {

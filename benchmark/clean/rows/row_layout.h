@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/clouds/cloud_writer.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/records/point_records.h"
 #include "datasets/records/record_source.h"
 

@@ -21,7 +21,7 @@
 #include "core/scan/local_frame.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
-#include "datasets/clouds/formats.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
@@ -230,7 +230,7 @@ std::string reading_arguments(bool own_poses) {
 std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs) {
   std::string text;
   for (const OutputPath& output : paths.all()) {
-    if (output.kind != OutputKind::kScans && output.kind != OutputKind::kBag) continue;
+    if (output.kind != OutputKind::kScans) continue;
     text += "The cleaned scans open with: raymoval inspect " + output.path.string() +
             reading_arguments(outputs.has_own_poses()) + "\n";
   }

@@ -1,18 +1,137 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "datasets/bags/chunks/bag_file.h"
-#include "datasets/bags/chunks/unpack.h"
-#include "datasets/bags/mcap/mcap_records.h"
+#include "datasets/bags/bag_file.h"
+#include "datasets/bags/unpack.h"
 
 namespace raymoval {
+
+/// The bytes that a MCAP file begins and ends with.
+inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+/// Bytes of a record before its content: the op and the length of the content.
+inline constexpr std::uint64_t kMcapHeadSize = 9;
+/// Bytes of the content of a message before what was published.
+inline constexpr std::uint64_t kMcapMessageHeadSize = 22;
+/// Bytes of a whole footer with the magic behind it.
+inline constexpr std::uint64_t kMcapEndSize = kMcapHeadSize + 20 + 8;
+
+/// What a record is. Numbers that are not here are passed over; 0 is none at all.
+enum class McapOp : std::uint8_t {
+  kInvalid = 0x00,
+  kHeader = 0x01,
+  kFooter = 0x02,
+  kSchema = 0x03,
+  kChannel = 0x04,
+  kMessage = 0x05,
+  kChunk = 0x06,
+  kMessageIndex = 0x07,
+  kChunkIndex = 0x08,
+  kAttachment = 0x09,
+  kAttachmentIndex = 0x0A,
+  kStatistics = 0x0B,
+  kMetadata = 0x0C,
+  kMetadataIndex = 0x0D,
+  kSummaryOffset = 0x0E,
+  kDataEnd = 0x0F,
+};
+
+/// Reads the fields of a record one after another. Numbers are little-endian.
+class McapFields {
+ public:
+  /// @param where begins messages, such as "drive.mcap: byte 4,117: chunk"
+  McapFields(std::string_view content, std::string where)
+      : content_(content), where_(std::move(where)) {}
+  /// @throws DataError if the content ends before; so do all others
+  std::uint8_t u8() { return static_cast<std::uint8_t>(number(1)); }
+  std::uint16_t u16() { return static_cast<std::uint16_t>(number(2)); }
+  std::uint32_t u32() { return static_cast<std::uint32_t>(number(4)); }
+  std::uint64_t u64() { return number(8); }
+  /// Bytes behind a length of four bytes.
+  std::string_view text() { return take(u32()); }
+  std::string_view take(std::uint64_t count);
+  [[nodiscard]] std::size_t at() const { return at_; }
+  [[nodiscard]] bool empty() const { return at_ == content_.size(); }
+
+ private:
+  std::uint64_t number(std::size_t size);
+  std::string_view content_;
+  std::string where_;
+  std::size_t at_ = 0;
+};
+
+struct McapSchema {
+  std::uint16_t id = 0;
+  std::string name;
+};
+
+struct McapChannel {
+  std::uint16_t id = 0, schema = 0;  ///< Schema 0 is none.
+  std::string topic, encoding;
+  bool operator==(const McapChannel&) const = default;
+};
+
+struct McapMessageHead {
+  std::uint16_t channel = 0;
+  std::uint64_t log_time = 0;  ///< Nanoseconds, mostly since 1970.
+};
+
+struct McapChunkHead {
+  std::uint64_t unpacked_size = 0;
+  std::uint32_t crc = 0;  ///< 0 is none.
+  std::string compression;
+  std::uint64_t packed_at = 0;  ///< Where in the content the packed records begin.
+  std::uint64_t packed_size = 0;
+};
+
+struct McapMessageIndex {
+  struct Entry {
+    std::uint64_t log_time = 0, offset = 0;
+  };
+  std::uint16_t channel = 0;
+  std::vector<Entry> entries;
+};
+
+struct McapChunkIndex {
+  std::uint64_t start = 0, length = 0;                  ///< Of the chunk's record.
+  std::map<std::uint16_t, std::uint64_t> index_places;  ///< Of the message index of each channel.
+};
+
+struct McapFooter {
+  std::uint64_t summary_start = 0, offsets_start = 0;
+  std::uint32_t crc = 0;  ///< 0 is none.
+};
+
+McapSchema read_mcap_schema(std::string_view content, const std::string& where);
+McapChannel read_mcap_channel(std::string_view content, const std::string& where);
+McapMessageHead read_mcap_message(std::string_view content, const std::string& where);
+/// @param content its beginning is enough
+McapChunkHead read_mcap_chunk(std::string_view content, const std::string& where);
+McapMessageIndex read_mcap_message_index(std::string_view content, const std::string& where);
+McapChunkIndex read_mcap_chunk_index(std::string_view content, const std::string& where);
+McapFooter read_mcap_footer(std::string_view content, const std::string& where);
+
+/// A record among others: where it begins, and what it holds.
+struct McapRecord {
+  McapOp op = McapOp::kInvalid;
+  std::size_t begin = 0;
+  std::string_view content;
+};
+
+/// Calls `call` with each record of `records`, in order.
+/// @return what is wrong with the record at which it stopped; empty if all were whole
+std::string for_each_record(std::string_view records,
+                            const std::function<void(const McapRecord&)>& call);
 
 /// A record that stands in a file.
 struct McapPlace {

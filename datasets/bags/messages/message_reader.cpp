@@ -86,11 +86,4 @@ MessageHeader read_message_header(MessageReader& reader) {
   return header;
 }
 
-std::string written_u32(const MessageReader& reader, std::uint32_t value) {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  if (reader.big_endian()) std::reverse(bytes.begin(), bytes.end());
-  return bytes;
-}
-
 }  // namespace raymoval

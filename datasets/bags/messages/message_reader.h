@@ -71,7 +71,4 @@ MessageHeader read_message_header(MessageReader& reader);
 /// frames that are longer than anybody's.
 inline constexpr std::size_t kHeaderBytes = 1024;
 
-/// The number `value` as the message of `reader` writes it.
-std::string written_u32(const MessageReader& reader, std::uint32_t value);
-
 }  // namespace raymoval

@@ -3,13 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <utility>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/bags/messages/livox.h"
 #include "datasets/clouds/format/stored_points.h"
 
 namespace raymoval {
@@ -28,6 +24,24 @@ constexpr std::array kTypes = {NumberType{'I', 1}, NumberType{'U', 1}, NumberTyp
 bool is_point_cloud(const std::string& type) {
   return type == "sensor_msgs/PointCloud2";
 }
+
+/// The message that Livox's drivers publish points in.
+bool is_livox(const std::string& type) {
+  return type == "livox_ros_driver/CustomMsg" || type == "livox_ros_driver2/CustomMsg";
+}
+
+/// What a message with points says of them. Positions are bytes of the message.
+struct PointsMessage {
+  MessageHeader header;
+  RecordLayout layout;   ///< Of a point as the message lays it out.
+  bool swapped = false;  ///< Whether the numbers of the points are big-endian.
+  std::uint32_t width = 0, height = 0;
+  std::uint64_t row_step = 0;    ///< Bytes from a row to the next.
+  std::uint64_t point_step = 0;  ///< Bytes from a point to the next.
+  std::size_t points_begin = 0;  ///< The first point.
+
+  [[nodiscard]] std::uint64_t size() const { return std::uint64_t{width} * height; }
+};
 
 PointField read_field(MessageReader& reader) {
   PointField field;
@@ -75,37 +89,6 @@ void check_data(PointsMessage& cloud, std::uint64_t data_bytes, const MessageRea
               "; the message is cut or contradicts itself.");
 }
 
-/// The places in a record of numbers whose bytes are to be reversed, each once.
-std::vector<std::pair<std::size_t, std::size_t>> numbers_of(const RecordLayout& layout,
-                                                            const std::string& where) {
-  std::vector<std::pair<std::size_t, std::size_t>> numbers;
-  for (const PointField& field : layout.fields) {
-    const auto size = static_cast<std::size_t>(field.size);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(field.count); ++i) {
-      numbers.emplace_back(field.offset + i * size, size);
-    }
-  }
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  for (std::size_t i = 1; i < numbers.size(); ++i) {
-    if (numbers[i - 1].first + numbers[i - 1].second <= numbers[i].first) continue;
-    throw DataError(where + ": big-endian fields of different size overlap, which is not read.");
-  }
-  return numbers;
-}
-
-void turn_to_little_endian(PointRecords& records, const std::string& where) {
-  // Without a point nothing bounds how many numbers a field says it has.
-  if (records.size() == 0) return;
-  const auto numbers = numbers_of(records.layout, where);
-  for (std::size_t point = 0; point < records.size(); ++point) {
-    for (const auto& [offset, size] : numbers) {
-      std::byte* begin = records.row(point) + offset;
-      std::reverse(begin, begin + size);
-    }
-  }
-}
-
 /// What a PointCloud2 says before its data.
 PointsMessage parse_cloud_head(MessageReader& reader) {
   // A field has a name with its length, an offset, a type and a count.
@@ -122,37 +105,6 @@ PointsMessage parse_cloud_head(MessageReader& reader) {
   return cloud;
 }
 
-PointsMessage parse_points(MessageReader& reader, const std::string& type) {
-  if (is_point_cloud(type)) return parse_point_cloud(reader);
-  if (is_livox(type)) return parse_livox(reader);
-  throw UsageError(reader.where() + ": is of type " + type +
-                   ", which has no points; expected sensor_msgs/PointCloud2 or a Livox CustomMsg.");
-}
-
-}  // namespace
-
-bool has_points(const std::string& type) {
-  return is_point_cloud(type) || is_livox(type);
-}
-
-PointsHead read_points_head(std::string_view bytes, const std::string& type,
-                            MessageEncoding encoding, const std::string& where) {
-  MessageReader reader(bytes, encoding, where);
-  PointsHead head;
-  if (is_livox(type)) {
-    head.header = read_message_header(reader);
-    reader.number<std::uint64_t>("timebase");
-    head.size = reader.number<std::uint32_t>("point_num");
-    head.layout = livox_layout();
-    return head;
-  }
-  const PointsMessage cloud = parse_cloud_head(reader);
-  head.header = cloud.header;
-  head.size = cloud.size();
-  head.layout = cloud.layout;
-  return head;
-}
-
 PointsMessage parse_point_cloud(MessageReader& reader) {
   PointsMessage cloud = parse_cloud_head(reader);
   const std::uint32_t data_bytes = reader.count("data", 1);
@@ -164,44 +116,90 @@ PointsMessage parse_point_cloud(MessageReader& reader) {
   return cloud;
 }
 
-namespace {
-
-/// The points with all their fields, of a message that was parsed.
-PointRecords points_of(const PointsMessage& cloud, std::string_view bytes,
-                       const std::string& where) {
-  PointRecords records;
-  records.layout = cloud.layout;
-  records.width = cloud.width;
-  records.height = cloud.height;
-  const std::size_t row = cloud.layout.row_bytes;
-  records.bytes.resize(cloud.size() * row);
-  std::byte* to = records.bytes.data();
-  // Points that follow each other without a gap are copied together.
-  const std::uint64_t run = cloud.point_step == row ? cloud.width : 1;
-  for (std::uint64_t point = 0; point < cloud.size(); point += run) {
-    std::memcpy(to, bytes.data() + cloud.place(point), run * row);
-    to += run * row;
-  }
-  if (cloud.swapped) turn_to_little_endian(records, where);
-  return records;
+RecordLayout livox_layout() {
+  RecordLayout layout;
+  layout.add("offset_time", 'U', 4);
+  for (const char* axis : {"x", "y", "z"}) layout.add(axis, 'F', 4);
+  for (const char* name : {"reflectivity", "tag", "line"}) layout.add(name, 'U', 1);
+  return layout;
 }
 
-/// Points that lie in `bytes` as rows of `layout`, `step` bytes apart.
-StoredPoints stored_points(std::string_view bytes, const RecordLayout& layout, std::size_t step,
-                           std::size_t points) {
-  StoredPoints stored{bytes, {}, points, layout.row_bytes};
-  for (const PointField& field : layout.fields) {
-    stored.columns.push_back({field, field.offset, step, false});
+PointsMessage parse_livox(MessageReader& reader) {
+  // A CustomPoint has 19 bytes. CDR begins each at a multiple of four bytes.
+  constexpr std::size_t kPointBytes = 19, kCdrPointStep = 20;
+  PointsMessage cloud;
+  cloud.header = read_message_header(reader);
+  reader.number<std::uint64_t>("timebase");
+  reader.number<std::uint32_t>("point_num");
+  reader.skip(4, "lidar_id and rsvd");
+  // How many points there are is the length of the sequence; `point_num` only repeats it.
+  const std::uint32_t count = reader.count("points", kPointBytes);
+  cloud.layout = livox_layout();
+  cloud.swapped = reader.big_endian();
+  cloud.height = 1;
+  cloud.width = count;
+  cloud.point_step = reader.is_cdr() ? kCdrPointStep : kPointBytes;
+  cloud.row_step = cloud.point_step * count;
+  cloud.points_begin = reader.position();
+  // The last point is not filled up.
+  if (count > 0) reader.skip(cloud.point_step * (count - 1U) + kPointBytes, "points");
+  return cloud;
+}
+
+PointsMessage parse_points(MessageReader& reader, const std::string& type) {
+  if (is_point_cloud(type)) return parse_point_cloud(reader);
+  if (is_livox(type)) return parse_livox(reader);
+  throw UsageError(reader.where() + ": is of type " + type +
+                   ", which has no points; expected sensor_msgs/PointCloud2 or a Livox CustomMsg.");
+}
+
+/// Where the values of the points stand.
+/// @param bytes the message
+/// @param packed is filled with the rows of the cloud, if padding stands between them
+StoredPoints stored_points(const PointsMessage& cloud, std::string_view bytes,
+                           std::string& packed) {
+  StoredPoints stored{bytes.substr(cloud.points_begin), {}, cloud.size(), cloud.layout.row_bytes};
+  const std::uint64_t row = cloud.width * cloud.point_step;
+  if (cloud.height > 1 && cloud.row_step != row) {
+    for (std::uint32_t i = 0; i < cloud.height && row > 0; ++i) {
+      packed += stored.bytes.substr(i * cloud.row_step, row);
+    }
+    stored.bytes = packed;
+  }
+  for (const PointField& field : cloud.layout.fields) {
+    stored.columns.push_back({field, field.offset, cloud.point_step, cloud.swapped});
   }
   return stored;
 }
 
 }  // namespace
 
+bool has_points(const std::string& type) {
+  return is_point_cloud(type) || is_livox(type);
+}
+
+PointsHead read_points_head(std::string_view bytes, const std::string& type,
+                            MessageEncoding encoding, const std::string& where) {
+  MessageReader reader(bytes, encoding, where);
+  if (!is_livox(type)) {
+    const PointsMessage cloud = parse_cloud_head(reader);
+    return {cloud.header, cloud.size(), cloud.layout};
+  }
+  PointsHead head{read_message_header(reader), 0, livox_layout()};
+  reader.number<std::uint64_t>("timebase");
+  head.size = reader.number<std::uint32_t>("point_num");
+  return head;
+}
+
 PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
                          const std::string& where) {
   MessageReader reader(bytes, encoding, where);
-  return points_of(parse_points(reader, type), bytes, where);
+  const PointsMessage cloud = parse_points(reader, type);
+  std::string packed;
+  PointRecords records = records_of(stored_points(cloud, bytes, packed));
+  records.width = cloud.width;
+  records.height = cloud.height;
+  return records;
 }
 
 Cloud read_point_positions(std::string_view bytes, const std::string& type,
@@ -209,17 +207,8 @@ Cloud read_point_positions(std::string_view bytes, const std::string& type,
                            const std::string& where) {
   MessageReader reader(bytes, encoding, where);
   const PointsMessage cloud = parse_points(reader, type);
-  const bool gaps = cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step;
-  if (!cloud.swapped && !gaps) {
-    return cloud_of(stored_points(bytes.substr(cloud.points_begin), cloud.layout, cloud.point_step,
-                                  cloud.size()),
-                    origin, where);
-  }
-  const PointRecords points = points_of(cloud, bytes, where);
-  return cloud_of(
-      stored_points({reinterpret_cast<const char*>(points.bytes.data()), points.bytes.size()},
-                    points.layout, points.layout.row_bytes, points.size()),
-      origin, where);
+  std::string packed;
+  return cloud_of(stored_points(cloud, bytes, packed), origin, where);
 }
 
 }  // namespace raymoval

@@ -7,29 +7,10 @@
 #include <string_view>
 
 #include "datasets/bags/messages/message_reader.h"
-#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
-
-/// What a message with points says of them, and where it says it. Positions are bytes of the
-/// message, which outlives this.
-struct PointsMessage {
-  MessageHeader header;
-  RecordLayout layout;   ///< Of a point as the message lays it out.
-  bool swapped = false;  ///< Whether the numbers of the points are big-endian.
-  std::uint32_t width = 0, height = 0;
-  std::uint64_t row_step = 0;    ///< Bytes from a row to the next.
-  std::uint64_t point_step = 0;  ///< Bytes from a point to the next.
-  std::size_t points_begin = 0;  ///< The first point.
-
-  [[nodiscard]] std::uint64_t size() const { return std::uint64_t{width} * height; }
-  /// Byte of the message at which a point begins.
-  [[nodiscard]] std::size_t place(std::uint64_t point) const {
-    return points_begin +
-           static_cast<std::size_t>(point / width * row_step + point % width * point_step);
-  }
-};
 
 /// Whether `type` is a message with points: sensor_msgs/PointCloud2, or CustomMsg of a Livox
 /// driver.
@@ -47,9 +28,9 @@ PointsHead read_points_head(std::string_view bytes, const std::string& type,
                             MessageEncoding encoding, const std::string& where);
 
 /// The points of a message with all their fields.
-/// - PointCloud2: the layout is the message's own with all offsets and what lies between fields;
-///   a count of 0 stands for 1, as some drivers write it. Big-endian numbers are turned to
-///   little-endian. Padding at the end of rows is left out.
+/// - PointCloud2: the layout is the message's own with all offsets; a count of 0 stands for 1, as
+///   some drivers write it. Big-endian numbers are turned to little-endian. Padding at the end of
+///   rows is left out.
 /// - CustomMsg: offset_time (nanoseconds from the stamp on), x, y, z, reflectivity, tag and line.
 /// @param where begins messages: "drive.bag: /points, message 12"
 /// @throws DataError naming the field that is cut, has an unknown type or does not fit its point;
@@ -64,9 +45,5 @@ PointRecords read_points(std::string_view bytes, const std::string& type, Messag
 Cloud read_point_positions(std::string_view bytes, const std::string& type,
                            MessageEncoding encoding, const Eigen::Vector3d& origin,
                            const std::string& where);
-
-/// The parts of `read_points`, for those who change messages.
-PointsMessage parse_point_cloud(MessageReader& reader);
-PointsMessage parse_livox(MessageReader& reader);
 
 }  // namespace raymoval

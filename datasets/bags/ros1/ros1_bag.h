@@ -2,19 +2,46 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "datasets/bags/bag.h"
-#include "datasets/bags/chunks/bag_file.h"
-#include "datasets/bags/chunks/chunk_store.h"
-#include "datasets/bags/damage_notes.h"
-#include "datasets/bags/ros1/contents.h"
+#include "datasets/bags/bag_file.h"
+#include "datasets/bags/bag_index.h"
+#include "datasets/bags/ros1/ros1_file.h"
+#include "datasets/bags/unpack.h"
 
 namespace raymoval {
+
+/// What a ROS 1 bag holds, without its messages.
+struct Ros1Contents {
+  std::map<std::uint32_t, Ros1Connection> connections;
+  std::map<std::uint32_t, std::size_t> topics;  ///< Topic in `messages` of each connection.
+  std::vector<Ros1Chunk> chunks;                ///< In the order of the file.
+  MessageTable messages;                        ///< Places are those of `message_place`.
+};
+
+/// A message's chunk and its byte there in one number, which grows along the file. A chunk unpacks
+/// to less than 4 GiB, for its size has 32 bits.
+constexpr std::uint64_t message_place(std::size_t chunk, std::uint64_t offset) {
+  return (static_cast<std::uint64_t>(chunk) << 32U) | offset;
+}
+constexpr std::size_t chunk_of(std::uint64_t place) {
+  return static_cast<std::size_t>(place >> 32U);
+}
+constexpr std::uint64_t offset_of(std::uint64_t place) {
+  return place & 0xFFFFFFFFU;
+}
+
+/// Reads what is in a bag. From its index, if that is whole and fits what it points to; else chunk
+/// by chunk from front to back, as far as the file goes.
+/// @param notes gets what could not be read
+/// @throws DataError if the file is no ROS 1 bag of version 2.0, or encrypted; UnreadableError if
+///   the disk fails
+Ros1Contents read_contents(const BagFile& file, DamageNotes& notes);
 
 /// A ROS 1 bag of version 2.0, not packed or packed by bz2 or lz4. Its index is used where it is
 /// whole; a bag that was cut or never closed is read from front to back when it is opened. 16 bytes
@@ -35,22 +62,7 @@ class Ros1Bag : public Bag {
   [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
                                          std::size_t most) const override;
   [[nodiscard]] std::vector<std::string> damage() const override { return notes_.sentences(); }
-
-  /// A message as it stands in its chunk.
-  struct StoredMessage {
-    std::uint32_t connection = 0;
-    std::size_t topic = 0;
-    Nanoseconds recorded = 0;
-    std::string bytes;
-  };
-  [[nodiscard]] const std::map<std::uint32_t, Ros1Connection>& connections() const {
-    return contents_.connections;
-  }
   [[nodiscard]] const std::vector<Ros1Chunk>& chunks() const { return contents_.chunks; }
-  /// Calls `call` for each message of chunk `number` in the order of the file; what it throws goes
-  /// through. Of a damaged chunk, those before the damage. @throws UnreadableError
-  void for_each_message(std::size_t number,
-                        const std::function<void(const StoredMessage&)>& call) const;
 
  private:
   template <class Call>

@@ -1,20 +1,70 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sqlite3.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "datasets/bags/bag.h"
-#include "datasets/bags/chunks/bag_file.h"
-#include "datasets/bags/chunks/message_table.h"
-#include "datasets/bags/damage_notes.h"
-#include "datasets/bags/ros2/sqlite.h"
+#include "datasets/bags/bag_file.h"
+#include "datasets/bags/bag_index.h"
 
 namespace raymoval {
+
+/// A database of SQLite, which nothing else uses at the same time. Errors are DataError for what is
+/// wrong in the file, and UnreadableError for a disk that fails.
+class SqliteDatabase {
+ public:
+  /// Opens a file to read it, and neither locks nor changes it.
+  /// @param is_cut whether the file has fewer pages than it says, so that some cannot be read
+  static SqliteDatabase to_read(const std::filesystem::path& path, bool is_cut);
+
+  [[nodiscard]] sqlite3* handle() const { return handle_.get(); }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  void run(const std::string& sql) const;
+  /// How many steps the next statements may take in all; what takes more is an error, for a
+  /// database can be built so that it never ends.
+  void allow_steps(std::int64_t steps) const { *steps_ = steps; }
+  /// @param code the library's. @throws what it stands for
+  [[noreturn]] void fail(int code) const;
+
+ private:
+  SqliteDatabase(std::filesystem::path path, const std::string& uri, int flags);
+  struct Close {
+    void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<std::int64_t> steps_;  ///< Stays where it is when the database moves.
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// One statement, prepared.
+class SqliteStatement {
+ public:
+  /// @throws DataError, also if there is more than one statement in `sql`
+  SqliteStatement(const SqliteDatabase& database, std::string_view sql);
+  /// Goes to the next row. @return whether there is one
+  bool step();
+  [[nodiscard]] std::int64_t number(int column) const {
+    return sqlite3_column_int64(handle_.get(), column);
+  }
+  [[nodiscard]] std::string text(int column) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+  const SqliteDatabase& database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+};
 
 /// A recording in a database of SQLite, as rosbag2 writes it (.db3).
 class Db3Bag : public Bag {
@@ -42,7 +92,6 @@ class Db3Bag : public Bag {
   /// The topic of an id in the table `topics`; nothing if it is not there.
   [[nodiscard]] std::optional<std::size_t> topic_of(std::int64_t id) const;
   [[nodiscard]] std::uint64_t file_size() const { return file_.size(); }
-  [[nodiscard]] const MessageTable& table() const { return table_; }
 
  private:
   void check_tables() const;

@@ -1,14 +1,186 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/bags/ros2/folder_bag.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
+#include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/bags/unpack.h"
 
 namespace raymoval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{16} << 20;
+constexpr int kLastVersion = 9;
+/// Up to this version files are listed with the name of their folder before them.
+constexpr int kLastWithFolder = 3;
+
+std::string lower(std::string text) {
+  for (char& letter : text) letter = static_cast<char>(std::tolower(letter & 0x7F));
+  return text;
+}
+
+/// The value of a key as a text; empty if there is none, or if it is a list or a map.
+std::string value_of(const YAML::Node& node, const char* key) {
+  const YAML::Node found = node[key];
+  return found && found.IsScalar() ? found.Scalar() : "";
+}
+
+/// "metadata.yaml:17", to begin messages.
+std::string place(const fs::path& path, const YAML::Mark& mark) {
+  return path.string() + ":" + std::to_string(mark.line + 1);
+}
+
+std::optional<std::uint64_t> count_of(const YAML::Node& node, const fs::path& path) {
+  const YAML::Node found = node["message_count"];
+  if (!found) return std::nullopt;
+  const std::string value = value_of(node, "message_count");
+  if (const auto count = parse_number<std::uint64_t>(value)) return count;
+  throw DataError(place(path, found.Mark()) + ": message_count is '" + value.substr(0, 40) +
+                  "', expected a number of messages.");
+}
+
+/// A path that leads nowhere but to a file in the folder.
+bool stays_inside(const fs::path& listed) {
+  return listed.is_relative() && !listed.empty() &&
+         std::find(listed.begin(), listed.end(), "..") == listed.end();
+}
+
+/// Where a listed file may stand, the likeliest first. A folder that was renamed or moved has its
+/// files still, whatever is listed.
+std::vector<fs::path> candidates(const fs::path& folder, const fs::path& listed, int version) {
+  std::vector<fs::path> places;
+  if (stays_inside(listed)) {
+    const bool has_folder = std::distance(listed.begin(), listed.end()) > 1;
+    if (version <= kLastWithFolder && has_folder) {
+      places.push_back(folder / listed.lexically_relative(*listed.begin()));
+    }
+    places.push_back(folder / listed);
+  }
+  places.push_back(folder / listed.filename());
+  // A file may have been packed or unpacked by hand.
+  for (const fs::path& place : std::vector<fs::path>(places)) {
+    places.push_back(place.string() + ".zstd");
+    places.push_back(without_zstd_ending(place));
+  }
+  return places;
+}
+
+void add_file(Ros2Metadata& metadata, const YAML::Node& node, std::set<fs::path>& known) {
+  const fs::path folder = metadata.path.parent_path();
+  Ros2File file;
+  if (node.IsScalar()) file.listed = node.Scalar();
+  if (file.listed.empty()) {
+    throw DataError(place(metadata.path, node.Mark()) +
+                    ": the name of a file is expected; `ros2 bag reindex` writes the file anew.");
+  }
+  const auto places = candidates(folder, file.listed, metadata.version);
+  const auto found = std::find_if(places.begin(), places.end(), [](const fs::path& place) {
+    return place.has_filename() && is_file(place);
+  });
+  file.is_there = found != places.end();
+  file.path = file.is_there ? *found : places.front();
+  if (known.insert(file.path).second) {
+    metadata.files.push_back(std::move(file));
+  } else {
+    metadata.twice.push_back(file.listed);
+  }
+}
+
+/// @throws UsageError for a packing that is not read
+void check_packing(const YAML::Node& information, const fs::path& path) {
+  const std::string mode = lower(value_of(information, "compression_mode"));
+  const std::string format = lower(value_of(information, "compression_format"));
+  if (mode.empty() || mode == "none" || mode == "~" || mode == "null") return;
+  if (format != "zstd") {
+    throw UsageError(path.string() + ": the recording is packed by '" + format +
+                     "', which is not read; expected zstd. `ros2 bag convert` writes it anew.");
+  }
+  if (mode == "file" || mode == "message") return;
+  throw UsageError(path.string() + ": compression_mode is '" + mode +
+                   "', which is not read; expected FILE or MESSAGE. `ros2 bag convert` writes the "
+                   "recording anew.");
+}
+
+/// Says of each listed file how many messages it should have.
+void add_counts(Ros2Metadata& metadata, const YAML::Node& information) {
+  std::map<std::string, std::optional<std::uint64_t>> counts;
+  for (const YAML::Node& node : information["files"]) {
+    if (node.IsMap()) counts.emplace(value_of(node, "path"), count_of(node, metadata.path));
+  }
+  for (Ros2File& file : metadata.files) {
+    const auto said = counts.find(file.listed);
+    if (said != counts.end()) file.messages = said->second;
+  }
+}
+
+void check_version(const YAML::Node& information, int version, const fs::path& path) {
+  const std::string where = path.string() + ": ";
+  if (version < 1 || version > kLastVersion) {
+    throw UsageError(where + "is of version '" + value_of(information, "version") +
+                     "'; versions 1 to 9 are read. Name its .db3 or .mcap file instead.");
+  }
+  const std::string storage = value_of(information, "storage_identifier");
+  if (storage != "sqlite3" && storage != "mcap") {
+    throw UsageError(where + "the recording is stored by '" + storage +
+                     "', which is not read; expected sqlite3 or mcap. `ros2 bag convert` writes it "
+                     "anew.");
+  }
+}
+
+Ros2Metadata parsed_metadata(const fs::path& path) {
+  Ros2Metadata metadata;
+  metadata.path = path;
+  const YAML::Node all = YAML::Load(read_text(path));
+  const YAML::Node information =
+      all.IsMap() ? all["rosbag2_bagfile_information"] : YAML::Node(YAML::NodeType::Null);
+  if (!information || !information.IsMap()) {
+    throw DataError(path.string() +
+                    ": has no 'rosbag2_bagfile_information', so it does not describe a recording "
+                    "of ROS 2. Name the .db3 or .mcap file instead.");
+  }
+  metadata.version = parse_number<int>(value_of(information, "version")).value_or(0);
+  check_version(information, metadata.version, path);
+  check_packing(information, path);
+  metadata.messages = count_of(information, path);
+  std::set<fs::path> known;
+  for (const YAML::Node& file : information["relative_file_paths"]) {
+    add_file(metadata, file, known);
+  }
+  if (metadata.files.empty()) {
+    throw DataError(path.string() +
+                    ": lists no file below 'relative_file_paths'; `ros2 bag reindex` writes it "
+                    "anew.");
+  }
+  add_counts(metadata, information);
+  return metadata;
+}
+
+}  // namespace
+
+Ros2Metadata read_ros2_metadata(const fs::path& folder) {
+  const fs::path path = folder / "metadata.yaml";
+  if (plain_file_size(path) > kMostBytes) {
+    throw DataError(path.string() + ": has more than 16 MiB, so it does not describe a recording.");
+  }
+  try {
+    return parsed_metadata(path);
+  } catch (const YAML::Exception& error) {
+    throw DataError(place(path, error.mark) + ": " + error.msg +
+                    ". Expected what `ros2 bag record` writes; `ros2 bag reindex` writes it anew.");
+  }
+}
+
 namespace {
 
 /// A message's place is the number of its part, and its own in its topic there.
@@ -105,14 +277,6 @@ std::string Ros2FolderBag::message_head(std::size_t topic, std::size_t index,
                                         std::size_t most) const {
   const Found found = find(topic, index);
   return found.bag.message_head(found.topic, found.index, most);
-}
-
-std::size_t Ros2FolderBag::index_of(std::size_t part, std::size_t topic, std::size_t index) const {
-  const Part& in = parts_.at(part);
-  const auto found =
-      table_.index_of(in.topics.at(topic), {in.bag->recorded(topic, index), place_of(part, index)});
-  if (!found) throw InternalError("a message of a file is not in the recording that it belongs to");
-  return *found;
 }
 
 std::vector<std::string> Ros2FolderBag::damage() const {

@@ -1,17 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "datasets/bags/bag.h"
-#include "datasets/bags/chunks/message_table.h"
-#include "datasets/bags/damage_notes.h"
-#include "datasets/bags/ros2/metadata.h"
+#include "datasets/bags/bag_index.h"
 
 namespace raymoval {
+
+/// A file of a recording as metadata.yaml lists it.
+struct Ros2File {
+  std::string listed;          ///< As it is written there.
+  std::filesystem::path path;  ///< Where it is, in the recording's folder.
+  bool is_there = false;
+  std::optional<std::uint64_t> messages;  ///< That it should have, if that is said.
+};
+
+/// What metadata.yaml says of a folder, versions 1 to 9.
+struct Ros2Metadata {
+  std::filesystem::path path;
+  int version = 0;
+  std::optional<std::uint64_t> messages;
+  std::vector<Ros2File> files;     ///< In order, each once.
+  std::vector<std::string> twice;  ///< Those that are listed more than once.
+};
+
+/// @throws DataError naming the line that is wrong; UsageError for a storage or a packing that is
+///   not read; UnreadableError
+Ros2Metadata read_ros2_metadata(const std::filesystem::path& folder);
 
 /// A recording of ROS 2 in a folder with metadata.yaml: one file or several, which are one
 /// recording. Its index takes 32 bytes a message.
@@ -33,18 +55,13 @@ class Ros2FolderBag : public Bag {
                                          std::size_t most) const override;
   [[nodiscard]] std::vector<std::string> damage() const override;
 
-  [[nodiscard]] const Ros2Metadata& metadata() const { return metadata_; }
+ private:
   /// A file of the recording that could be opened.
   struct Part {
     std::size_t file = 0;  ///< In `metadata().files`.
     std::unique_ptr<Bag> bag;
     std::vector<std::size_t> topics;  ///< The number here of each of its topics.
   };
-  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
-  /// The number of a message in its topic here. @param index in its topic in the part
-  [[nodiscard]] std::size_t index_of(std::size_t part, std::size_t topic, std::size_t index) const;
-
- private:
   /// A message in the file that holds it.
   struct Found {
     const Bag& bag;

@@ -1,18 +1,57 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "datasets/clouds/format/cloud_bytes.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
+
+/// Points as a file stores them, non-finite ones included.
+struct Cloud {
+  std::vector<Eigen::Vector3f> points;
+  /// The strength of each return: the field with one of `intensity_names`. As long as `points`, or
+  /// empty if the file has no such field with one value a point.
+  std::vector<float> intensity;
+};
+
+/// What a file does not say of itself.
+struct RecordReading {
+  /// Fields of a .bin file or the columns of an .npy array, such as "x y z intensity t:f8" (float32
+  /// where no type is given), see `parse_point_layout`.
+  std::optional<std::string> point_layout = std::nullopt;
+};
+
+/// A real intensity that a file also has as a whole number from 0 to 65,535, for viewers.
+struct ShownIntensity {
+  PointField field;
+  std::string exact;  ///< The name of the field of the file that has the value as it is.
+};
+
+/// How a file of point records is to be written.
+struct RecordWriting {
+  /// LAS: the coordinate reference system as WKT, a file with WKT, or "EPSG:32632" (see
+  /// `reference_system_text`); no other format holds one.
+  std::optional<std::string> crs = std::nullopt;
+  /// LAS: what a real intensity is multiplied by for the whole number from 0 to 65535 that viewers
+  /// show. The exact value stands beside it.
+  double intensity_scale = 1.0;
+};
+
+/// The content of a file of points, unpacked.
+struct CloudBytes {
+  const std::filesystem::path& path;  ///< For messages.
+  std::string_view text;
+  const RecordReading& reading;
+};
 
 /// How the points of a file that is written are organised: as the one piece they come in, if they
 /// do.
@@ -35,7 +74,7 @@ class WrittenShape {
 };
 
 /// Makes the bytes of a file of one format of rows of points. A file is its head and, behind that,
-/// what `rows` gives of each piece, and `rest`.
+/// what `rows` gives of each piece.
 class RecordEncoder {
  public:
   virtual ~RecordEncoder() = default;
@@ -43,33 +82,59 @@ class RecordEncoder {
   virtual void start(const PointRecords& first) = 0;
   /// The head of a file of `points` points. It has the same length for any count.
   [[nodiscard]] virtual std::string head(std::uint64_t points) const = 0;
-  /// The bytes of more rows. @throws DataError for a value that the format cannot hold
-  virtual std::string rows(const PointRecords& more) = 0;
-  /// What stands behind all rows; called once, before the last `head`.
-  /// @throws DataError as `rows`
-  virtual std::string rest() { return ""; }
+  /// The bytes of more rows: as they are, unless the format has another form for them.
+  /// @throws DataError for a value that the format cannot hold
+  virtual std::string rows(const PointRecords& more) {
+    return {reinterpret_cast<const char*>(more.bytes.data()), more.bytes.size()};
+  }
 };
 
-/// A kind of file that points are read from and written to. Each stands in a folder of its own and
-/// is listed in datasets/clouds/formats.cpp.
+/// A kind of file that points are read from and written to. Each stands in a file of its own and is
+/// listed in datasets/clouds/cloud_file.cpp.
 struct CloudFormat {
   std::string extension;  ///< ".pcd".
   Cloud (*read_cloud)(const CloudBytes& file, const Eigen::Vector3d& origin) = nullptr;
   PointRecords (*read_records)(const CloudBytes& file) = nullptr;
-  /// Makes what stands in the file, or in its `wrap`.
+  /// Null if the format is only read.
   std::unique_ptr<RecordEncoder> (*encoder)(const std::filesystem::path& path,
                                             const RecordWriting& writing) = nullptr;
-  /// As `what_is_lost`.
+  /// As `what_is_lost`; null if the format is only read.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
   bool holds_reference_system = false;
   /// The layout of the records of a file without reading its points; null if it takes as much.
   RecordLayout (*read_layout)(const std::filesystem::path& path,
                               const RecordReading& reading) = nullptr;
-  /// Makes a file of what the encoder made. Formats that have it are written whole only, by
-  /// `whole_file`.
-  std::string (*wrap)(const std::string& content, const StoredForm& form) = nullptr;
   /// As `shown_intensity`; null if the format shows no values otherwise than they are.
   std::optional<ShownIntensity> (*shown_intensity)(const RecordLayout& layout) = nullptr;
 };
+
+/// PCD 0.7: ascii, binary and binary_compressed are read, binary is written. Padding (fields "_")
+/// stands in records as bytes between fields, and such bytes are written as padding. VIEWPOINT is
+/// written if all rows have the same; WIDTH and HEIGHT are those of an organised cloud that is
+/// given in one piece.
+CloudFormat pcd_format();
+
+/// PLY 1.0: ascii and binary of either endianness are read, binary little-endian is written. Other
+/// elements, before and after the vertices, are skipped.
+CloudFormat ply_format();
+
+/// Rows of numbers without a head, little-endian: x y z intensity as float32, or what the reader is
+/// told. Rows are written as they are.
+CloudFormat bin_format();
+
+/// LAS 1.0 to 1.4 with the point formats 0 to 10; LAS 1.4 with the formats 6 to 8 is written (see
+/// las_encoder.h). Coordinates are float64 fields x, y and z in metres, values of a few bits are
+/// uint8 fields, and extra bytes are fields as they are described; their scales are not applied.
+CloudFormat las_format();
+
+/// NumPy's .npy: arrays of named fields (N or H x W), and arrays of numbers of one type (N x k or
+/// H x W x k), whose columns are named by the point layout, or x y z intensity field_4 and so on.
+/// Arrays of columns (Fortran order) are read too. Points are written as an array of fields;
+/// numbers of one type that never had names as an array of numbers.
+CloudFormat npy_format();
+
+/// NumPy's .npz, a zip archive of such arrays, stored or deflated: the only array, or the one named
+/// points or arr_0. It is only read.
+CloudFormat npz_format();
 
 }  // namespace raymoval

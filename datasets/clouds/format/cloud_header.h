@@ -85,4 +85,16 @@ class HeaderLines {
   std::size_t line_ = 0;
 };
 
+/// The header of a PCD file.
+/// @param bytes the file, or at least its whole header
+/// @throws DataError with file and line: missing or contradictory entries, unknown types, no x y z
+CloudHeader parse_pcd_header(std::string_view bytes, const std::filesystem::path& path);
+
+/// The header of a PLY file. What stands before the vertices in a binary file is walked through, so
+/// that `body_offset` is where they begin.
+/// @param bytes the file
+/// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements before the
+///   vertices that the file has no bytes for
+CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path);
+
 }  // namespace raymoval

@@ -98,7 +98,7 @@ PointRecords records_of(const StoredPoints& stored) {
     return is_row_of(column, columns.front(), stored.row_bytes);
   });
   const std::size_t bytes = stored.points * stored.row_bytes;
-  if (whole_rows && bytes > 0) {
+  if (whole_rows && bytes > 0 && !columns.empty()) {
     const auto* first = reinterpret_cast<const std::byte*>(stored.bytes.data()) +
                         (columns.front().start - columns.front().field.offset);
     records.bytes.assign(first, first + bytes);

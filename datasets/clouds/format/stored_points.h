@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "datasets/clouds/format/cloud_bytes.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
@@ -25,7 +27,8 @@ struct StoredPoints {
   std::string_view bytes;
   std::vector<StoredColumn> columns;
   std::size_t points = 0;
-  std::size_t row_bytes = 0;  ///< Of the records to be made.
+  std::size_t row_bytes = 0;                              ///< Of the records to be made.
+  std::shared_ptr<const std::string> unpacked = nullptr;  ///< What `bytes` are in, if not a file.
 };
 
 /// All fields of the points. A column whose field has no name is filler: its bytes are kept, but

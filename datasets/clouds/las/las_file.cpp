@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/clouds/las/las_file.h"
-
 #include <cstring>
 
 #include "datasets/clouds/format/stored_points.h"
 #include "datasets/clouds/las/las_encoder.h"
+#include "datasets/clouds/las/las_fields.h"
 #include "datasets/clouds/las/las_head.h"
-#include "datasets/clouds/las/las_layout.h"
 
 namespace raymoval {
 namespace {
@@ -82,7 +80,8 @@ PointRecords read_las_records(const CloudBytes& file) {
 }  // namespace
 
 CloudFormat las_format() {
-  CloudFormat format{".las", read_las_cloud, read_las_records, las_encoder, lost_in_las, true};
+  CloudFormat format{".las", read_las_cloud, read_las_records, las_encoder, lost_in_las};
+  format.holds_reference_system = true;
   format.shown_intensity = shown_in_las;
   return format;
 }

@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/clouds/format/cloud_header.h"
-#include "datasets/clouds/las/las_layout.h"
 #include "datasets/clouds/las/reference_system.h"
-
-// Places are those of the public header block of the LAS 1.4 specification (R15).
 
 namespace raymoval {
 namespace {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -228,30 +227,6 @@ std::vector<Finding> look_for_values(Samples& samples) {
            .remedy = remedy}};
 }
 
-/// The bits of a small whole number, read as a float, are a number near 1e-43.
-std::vector<Finding> look_for_bits(Samples& samples) {
-  constexpr float kTiny = 1e-30F;
-  std::size_t tiny = 0, other = 0;
-  std::map<std::uint32_t, std::size_t> words;
-  for (const float value : stored_intensity(samples)) {
-    if (value == 0.0F) continue;
-    if (std::abs(value) < kTiny) {
-      ++tiny;
-      ++words[std::bit_cast<std::uint32_t>(value)];
-    } else {
-      ++other;
-    }
-  }
-  if (tiny == 0 || 99 * other > tiny) return {};
-  const auto most = std::max_element(
-      words.begin(), words.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  return {
-      {.where = "intensity of the scan files",
-       .what = fmt::format("values such as {} are the bits of whole numbers ({}), not their values",
-                           number_text(static_cast<double>(std::bit_cast<float>(most->first))),
-                           grouped_text(most->first & 0xFFFFU))}};
-}
-
 }  // namespace
 
 std::vector<Check> label_checks() {
@@ -266,11 +241,6 @@ std::vector<Check> label_checks() {
       {"labels-in-intensity-by-value", "labels stand in the intensity of the points",
        "the strength of the return", "Write the labels to labels/NAME.label.", look_for_values,
        Consequence::kUnused},
-      {"labels-in-intensity-by-bits", "bits of labels stand in the intensity of the points",
-       "the strength of the return, or labels by value",
-       "Reinterpret the bits as uint32 and write them to labels/NAME.label, or store the value "
-       "(252.0) and give a label rule.",
-       look_for_bits, Consequence::kUnused},
   };
 }
 

@@ -12,7 +12,7 @@
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/evidence/point_unit.h"
+#include "datasets/inspection/evidence/pair_fit.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval::inspection {

@@ -4,23 +4,115 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <vector>
 
 #include "core/angle.h"
 #include "core/sampling.h"
+#include "core/scan/scan.h"
+#include "core/scan/sensor_model.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/evidence/overlap.h"
 #include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/trajectories/trajectory.h"
 
 namespace raymoval::inspection {
 namespace {
 
-constexpr std::size_t kPairs = 8, kFewestPairs = 3;
+/// The azimuths that a scan of more than one revolution passes twice, counter-clockwise.
+struct Overlap {
+  double from = 0.0;   ///< Radians, -pi to pi.
+  double width = 0.0;  ///< Radians.
+
+  [[nodiscard]] double to() const { return from + width; }
+};
+
+constexpr int kArcs = 72;
+
+struct Ray {
+  double azimuth, elevation;
+};
+
+std::vector<Ray> sorted_rays(const Scan& scan) {
+  std::vector<Ray> rays;
+  rays.reserve(scan.size());
+  for (const Eigen::Vector3f& point : scan.points) {
+    const Eigen::Vector3d p = point.cast<double>();
+    if (p.norm() < 1e-3) continue;
+    rays.push_back({std::atan2(p.y(), p.x()), std::atan2(p.z(), p.head<2>().norm())});
+  }
+  std::sort(rays.begin(), rays.end(),
+            [](const Ray& a, const Ray& b) { return a.azimuth < b.azimuth; });
+  return rays;
+}
+
+/// Points of an arc, and how many of them have a partner.
+struct Arc {
+  std::size_t points = 0, paired = 0;
+
+  [[nodiscard]] double share() const {
+    constexpr std::size_t kFewest = 20;
+    return points < kFewest ? 0.0 : static_cast<double>(paired) / static_cast<double>(points);
+  }
+};
+
+/// By arcs of azimuth from -pi on. A partner lies nearer than the next column and the next beam.
+std::array<Arc, kArcs> count_partners(const std::vector<Ray>& rays, const SensorModel& seen) {
+  constexpr double kPartOfColumn = 0.6, kPartOfBeam = 0.2;
+  const double wide = kPartOfColumn * seen.azimuth_step;
+  const double high = kPartOfBeam * seen.elevation_step;
+  std::vector<bool> paired(rays.size(), false);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t j = i + 1; j < rays.size() && rays[j].azimuth - rays[i].azimuth <= wide; ++j) {
+      if (std::abs(rays[j].elevation - rays[i].elevation) > high) continue;
+      paired[i] = paired[j] = true;
+    }
+  }
+  std::array<Arc, kArcs> arcs;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const int at = static_cast<int>((rays[i].azimuth + std::numbers::pi) / kTurn * kArcs);
+    Arc& arc = arcs[static_cast<std::size_t>(std::clamp(at, 0, kArcs - 1))];
+    ++arc.points;
+    arc.paired += paired[i] ? 1 : 0;
+  }
+  return arcs;
+}
+
+/// Where most points of `scan` have another one in about the same direction, and few have
+/// elsewhere; to 5 degrees. None below 15 degrees, and none for a sensor without beams. Both
+/// returns of a pulse give no overlap, for they lie all around.
+/// @param seen the sensor as its scans show it
+std::optional<Overlap> find_overlap(const Scan& scan, const SensorModel& seen) {
+  constexpr double kMost = 0.5, kFew = 0.3;
+  constexpr int kFewestArcs = 3, kMostArcs = kArcs - 6;
+  if (!(seen.azimuth_step > 0.0) || !(seen.elevation_step > 0.0) || !seen.has_beams()) return {};
+  const std::array<Arc, kArcs> arcs = count_partners(sorted_rays(scan), seen);
+  int longest = 0, end = 0, run = 0;
+  for (int at = 0; at < 2 * kArcs; ++at) {
+    run = arcs[static_cast<std::size_t>(at % kArcs)].share() >= kMost ? run + 1 : 0;
+    if (run > longest) {
+      longest = run;
+      end = at + 1;
+    }
+  }
+  if (longest < kFewestArcs || longest > kMostArcs) return {};
+  Arc outside;
+  for (int at = end + 1; at < end - longest + kArcs - 1; ++at) {
+    outside.points += arcs[static_cast<std::size_t>(at % kArcs)].points;
+    outside.paired += arcs[static_cast<std::size_t>(at % kArcs)].paired;
+  }
+  if (outside.share() > kFew) return {};
+  Overlap overlap;
+  overlap.width = longest * kTurn / kArcs;
+  overlap.from = (end - longest) * kTurn / kArcs - std::numbers::pi;
+  return overlap;
+}
+
+constexpr std::size_t kFarPairs = 8, kFewestFarPairs = 3;
 constexpr double kDistance = 6.0;  // metres of way between the scans of a pair
 constexpr double kReach = 0.1;     // metres; skew moves surfaces by decimetres
 constexpr double kClear = 1.03;    // on good data undoing a skew makes the agreement worse
@@ -136,7 +228,7 @@ std::vector<ScanPair> far_pairs(const Samples& samples) {
     all.push_back({i, j});
   }
   std::vector<ScanPair> chosen;
-  for (const std::size_t k : evenly_spread(all.size(), kPairs)) chosen.push_back(all[k]);
+  for (const std::size_t k : evenly_spread(all.size(), kFarPairs)) chosen.push_back(all[k]);
   return chosen;
 }
 
@@ -188,7 +280,7 @@ SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs,
 std::vector<Finding> look_for_skew(Samples& samples) {
   if (!pose_verdict(samples).check.empty()) return {};
   const std::vector<ScanPair> pairs = far_pairs(samples);
-  if (pairs.size() < kFewestPairs) return {};
+  if (pairs.size() < kFewestFarPairs) return {};
   const Sweeps sweeps(samples, pairs);
   const SkewFit fit = fit_sweeps(samples, pairs, sweeps);
   std::size_t best = 0;

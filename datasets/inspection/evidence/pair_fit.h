@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "datasets/geometry/surfels.h"
@@ -94,5 +96,36 @@ class PairFit {
   std::vector<double> best_;   ///< Agreement, by pair.
   std::vector<Pose> motions_;  ///< Where it is reached, by pair.
 };
+
+/// Metres of the units that points are taken for.
+inline constexpr double kMillimetre = 0.001, kCentimetre = 0.01, kFoot = 0.3048;
+
+/// The share of the best agreement of the scans that the given poses reach if one of the stored
+/// points' unit is `unit` metres; 0 if most pairs of scans show too little of the same.
+double share_in_unit(const Samples& samples, double unit);
+
+/// Whether a share is that of right poses and a right unit, and `other` that of another unit.
+bool tells_unit(double share, double other);
+
+/// If half of the points lie farther away than metres can be, takes them as millimetres or as
+/// centimetres: as that under which the scans agree by far better. Where they do not tell,
+/// `point_unit_is_open` is set, and the points are taken as millimetres.
+void settle_point_unit(Samples& samples);
+
+/// Whether the sensor turns by about the angles that its poses turn by, about whatever axis. This
+/// does not depend on how the sensor is turned on the body that has the poses.
+bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen);
+
+/// R_body_sensor under which the poses of a body move as the scans do, whatever the position of the
+/// sensor on the body: first the best turn about z, then the best of all turns, which a motion
+/// along nearly one line leaves open. Nothing if the scans hardly move.
+std::vector<Eigen::Matrix3d> turns_on_body(const Samples& samples,
+                                           const std::vector<SeenMotion>& seen);
+
+/// "90 degrees about z", or roll, pitch and yaw.
+std::string turn_text(const Eigen::Matrix3d& turn);
+
+/// "0,0,0,0,0,0.70711,0.70711": what `--T-sensor` says of a sensor in the middle of the body.
+std::string mounting_text(const Eigen::Matrix3d& turn);
 
 }  // namespace raymoval::inspection

@@ -9,9 +9,7 @@
 
 #include "core/sampling.h"
 #include "core/text.h"
-#include "datasets/inspection/evidence/body_frame.h"
 #include "datasets/inspection/evidence/pair_fit.h"
-#include "datasets/inspection/evidence/point_unit.h"
 #include "datasets/inspection/evidence/pose_hypotheses.h"
 #include "datasets/inspection/evidence/time_offset.h"
 
@@ -184,15 +182,8 @@ std::optional<PoseHypothesis> time_hypothesis(Samples& samples) {
 Reached best_hypothesis(Samples& samples, const PairFit& fit,
                         std::vector<PoseHypothesis> hypotheses) {
   const std::vector<SeenMotion> seen = fit.seen_motions();
-  // Degrees for radians turn scans by 57 times as much. A turn that is right is no such mistake,
-  // though on a straight road any heading is one of those that the mistake may have.
-  const bool turns = turns_as_much(samples, seen);
-  for (PoseHypothesis& hypothesis : degree_hypotheses(samples)) {
-    if (turns && hypothesis.check == "degrees-for-radians") continue;
-    hypotheses.push_back(std::move(hypothesis));
-  }
   std::vector<PoseHypothesis> fitted;
-  if (turns) fitted = body_hypotheses(samples, seen);
+  if (turns_as_much(samples, seen)) fitted = body_hypotheses(samples, seen);
   if (auto time = time_hypothesis(samples)) {
     std::erase_if(hypotheses, [](const auto& other) { return other.check == "poses-shifted"; });
     fitted.push_back(std::move(*time));

@@ -4,10 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numbers>
 
-#include "core/angle.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "datasets/clouds/frames.h"
@@ -18,7 +15,6 @@ namespace raymoval::inspection {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 /// Metres from scan to scan that no vehicle goes, also if one scan a second is kept, and that a
 /// moving one always exceeds: beyond them other units are worth a thought.
@@ -42,40 +38,6 @@ Pose with_rotation(const Pose& pose, const Matrix3d& rotation) {
   Pose result = pose;
   result.linear() = rotation;
   return result;
-}
-
-/// Roll, pitch, yaw of Rz(yaw) Ry(pitch) Rx(roll), pitch between -pi/2 and pi/2.
-Vector3d roll_pitch_yaw(const Matrix3d& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
-          std::atan2(R(1, 0), R(0, 0))};
-}
-
-Matrix3d rotation_of(const Vector3d& rpy) {
-  return (Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
-          Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
-Vector3d nearest_turn(Vector3d angles, const Vector3d& to) {
-  for (int k = 0; k < 3; ++k) angles[k] += kTurn * std::round((to[k] - angles[k]) / kTurn);
-  return angles;
-}
-
-/// Angles without jumps. Of the two ways to write a rotation the one nearer to the pose before is
-/// meant, to zero for the first: a car's roll and pitch are small.
-std::vector<Vector3d> unrolled_angles(const std::vector<Pose>& poses) {
-  std::vector<Vector3d> all;
-  Vector3d last = Vector3d::Zero();
-  for (const Pose& pose : poses) {
-    const Vector3d angles = roll_pitch_yaw(pose.linear());
-    const Vector3d other(angles.x() + std::numbers::pi, std::numbers::pi - angles.y(),
-                         angles.z() + std::numbers::pi);
-    const Vector3d a = nearest_turn(angles, last), b = nearest_turn(other, last);
-    last = (a - last).squaredNorm() <= (b - last).squaredNorm() ? a : b;
-    all.push_back(last);
-  }
-  return all;
 }
 
 /// The quaternion's columns were written in the other order than they were read in.
@@ -178,35 +140,6 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
                  [&poses, last](std::size_t i) { return poses[std::min(i + 1, last)]; }});
   all.push_back({"poses-shifted", "if each scan takes the pose of the scan before it",
                  [&poses](std::size_t i) { return poses[i == 0 ? 0 : i - 1]; }});
-  return all;
-}
-
-std::vector<PoseHypothesis> degree_hypotheses(const Samples& samples) {
-  const auto& poses = samples.poses();
-  std::vector<PoseHypothesis> all;
-  // Angles of the LiDAR itself, and of a camera as KITTI's pose files have it.
-  for (const Pose& axes : {Pose(Pose::Identity()), camera_axes()}) {
-    std::vector<Pose> turned;
-    for (const Pose& pose : poses) turned.push_back(axes * pose * axes.inverse());
-    const auto angles = std::make_shared<std::vector<Vector3d>>(unrolled_angles(turned));
-    const bool camera = !axes.isApprox(Pose::Identity());
-    for (int k = 0; k < 58; ++k) {
-      const int turns = (k + 1) / 2 * (k % 2 == 0 ? 1 : -1);
-      const Vector3d offset(0, camera ? kTurn * turns : 0, camera ? 0 : kTurn * turns);
-      all.push_back({"degrees-for-radians", "if the angles of the rotations are degrees",
-                     [&poses, angles, offset, axes](std::size_t i) {
-                       const Matrix3d rotation = rotation_of(kDegree * ((*angles)[i] + offset));
-                       return with_rotation(poses[i],
-                                            axes.linear().transpose() * rotation * axes.linear());
-                     }});
-    }
-    all.push_back({"radians-for-degrees", "if the angles of the rotations are 57.3 times larger",
-                   [&poses, angles, axes](std::size_t i) {
-                     const Matrix3d rotation = rotation_of((*angles)[i] / kDegree);
-                     return with_rotation(poses[i],
-                                          axes.linear().transpose() * rotation * axes.linear());
-                   }});
-  }
   return all;
 }
 

@@ -24,8 +24,4 @@ struct PoseHypothesis {
 /// @throws DataError as file_kind.h says if the calibration or the poses cannot be read
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples);
 
-/// Rotations whose angles were degrees where radians belong. The heading of the first pose is known
-/// only up to a turn of 2 pi degrees, so there are 58 of them for each way to write angles.
-std::vector<PoseHypothesis> degree_hypotheses(const Samples& samples);
-
 }  // namespace raymoval::inspection

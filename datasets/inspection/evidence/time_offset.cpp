@@ -9,7 +9,7 @@
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/evidence/pair_fit.h"
-#include "datasets/trajectories/pose_lookup.h"
+#include "datasets/trajectories/trajectory.h"
 
 namespace raymoval::inspection {
 namespace {

@@ -9,10 +9,9 @@
 #include "core/files/file_kind.h"
 #include "core/files/file_lock.h"
 #include "core/files/files.h"
+#include "core/files/part_name.h"
 #include "core/text.h"
 #include "datasets/simulation/scene/library.h"
-#include "datasets/simulation/scene/making_place.h"
-#include "datasets/simulation/scene/scene_folder.h"
 #include "datasets/simulation/scene/scene_writer.h"
 #include "datasets/simulation/scene/simulated.h"
 
@@ -101,23 +100,11 @@ void wait_for_turn(const CachedScene& scene, FileLock& lock) {
   }
 }
 
-/// Gives what was made its name in the cache, in place of what is damaged there.
-void take_place(const CachedScene& scene, simulated::MakingPlace& made) {
-  constexpr int kTries = 3;  // Each failure means that another process put something there.
-  for (int i = 0; i < kTries; ++i) {
-    if (made.take_place()) return;
-    if (scene.is_whole()) return;  // Another one was faster, with the same bytes.
-    if (made.replace_target()) return;
-  }
-  throw DataError(scene.folder.string() +
-                  ": cannot take its place; something else writes there again and again.");
-}
-
 /// Removes what killed processes left in the cache. A lock that can be taken is nobody's, and goes
 /// with its object.
 void sweep_cache(const fs::path& folder) {
-  simulated::sweep_making_places(folder);
   for (const fs::path& entry : entries_of(folder)) {
+    remove_abandoned_part(entry);
     if (entry.extension() != ".lock" || !is_file(entry)) continue;
     try {
       FileLock(entry).take(FileLock::Mode::kExclusive);
@@ -144,9 +131,8 @@ void make_scene(const CachedScene& scene) {
   }
   if (scene.is_whole()) return;
   sweep_cache(parent);
-  simulated::MakingPlace place(scene.folder);
-  simulated::write_scene(scene.writing, place.folder());
-  take_place(scene, place);
+  // Without locks another one may have been faster, with the same bytes.
+  simulated::write_scene(scene.writing, scene.folder, [&] { return scene.is_whole(); });
   const std::string problem = scene.problem();
   if (problem.empty()) return;
   throw DataError(scene.folder.string() + ": was just made, and " + problem +

@@ -1,28 +1,109 @@
 // SPDX-License-Identifier: MIT
+#include "datasets/simulation/scene/scene_writer.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <atomic>
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
 
 #include "core/error.h"
+#include "core/files/descriptor_io.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
+#include "core/files/files.h"
+#include "core/files/part_name.h"
+#include "core/files/replacements.h"
 #include "core/parallel.h"
 #include "core/scan/sensor_model.h"
 #include "core/text.h"
-#include "datasets/simulation/scene/making_place.h"
-#include "datasets/simulation/scene/scene_folder.h"
-#include "datasets/simulation/scene/scene_writer.h"
-#include "datasets/simulation/scene/simulated.h"
 
 static_assert(std::endian::native == std::endian::little, "files hold little-endian numbers");
 
-namespace raymoval {
+namespace raymoval::simulated {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kManifestVersion = 1;
+
+[[noreturn]] void throw_unwritable(const fs::path& path) {
+  throw DataError(path.string() + ": cannot be written (" + std::generic_category().message(errno) +
+                  "); the disk may be full or the folder read-only.");
+}
+
+/// A file that is new and on the disk when this returns. It needs no temporary name: the folder as
+/// a whole is what appears atomically.
+void write_synced(const fs::path& path, const void* data, std::size_t size) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file.valid()) throw_unwritable(path);
+  const bool written = write_at(file.get(), {static_cast<const char*>(data), size}, 0);
+  if (!written || ::fsync(file.get()) != 0) throw_unwritable(path);
+}
+
+std::string hash_of(const void* data, std::size_t size) {
+  return content_hash({static_cast<const char*>(data), size});
+}
+
+/// Writes the files of a new folder and, last, the list of them. Members throw DataError naming the
+/// path and the system's reason.
+class SceneFolder {
+ public:
+  /// @param folder exists and is empty
+  explicit SceneFolder(fs::path folder) : folder_(std::move(folder)) {
+    for (const char* name : {"velodyne", "labels"}) {
+      std::error_code error;
+      fs::create_directory(folder_ / name, error);
+      if (!error) continue;
+      throw DataError((folder_ / name).string() + ": cannot be made (" + error.message() +
+                      "). Choose a folder you may write to.");
+    }
+  }
+
+  /// Writes a file and puts it on the disk. Thread-safe.
+  /// @param name relative to the folder, below velodyne/ or labels/ or in the folder itself
+  void write(const std::string& name, const void* data, std::size_t size) {
+    write_synced(folder_ / name, data, size);
+    Entry entry{size, hash_of(data, size)};
+    const std::lock_guard lock(mutex_);
+    entries_[name] = std::move(entry);
+  }
+  void write(const std::string& name, const std::string& text) {
+    write(name, text.data(), text.size());
+  }
+
+  /// Writes the list and puts the names of all files on the disk.
+  void finish(const std::string& identity) {
+    nlohmann::ordered_json json;
+    json["schema_version"] = kManifestVersion;
+    json["identity"] = identity;
+    json["files"] = nlohmann::ordered_json::object();
+    for (const auto& [name, entry] : entries_) {
+      json["files"][name] = {{"bytes", entry.bytes}, {"xxh3_128", entry.hash}};
+    }
+    for (const char* below : {"velodyne", "labels"}) sync_folder(folder_ / below);
+    const std::string text = json.dump(1) + "\n";
+    write_synced(folder_ / kManifestName, text.data(), text.size());
+    sync_folder(folder_);
+  }
+
+ private:
+  struct Entry {
+    std::size_t bytes = 0;
+    std::string hash;
+  };
+  fs::path folder_;
+  std::mutex mutex_;
+  std::map<std::string, Entry> entries_;
+};
 
 /// T_camera_lidar of a car like KITTI's: the camera looks ahead, 27 cm before and 8 cm below the
 /// sensor, and is not mounted quite straight.
@@ -45,8 +126,7 @@ std::string row_text(const Pose& pose) {
   return text;
 }
 
-void write_scan(const SimulatedSequence& sequence, std::size_t index,
-                simulated::SceneFolder& folder) {
+void write_scan(const SimulatedSequence& sequence, std::size_t index, SceneFolder& folder) {
   const Scan scan = sequence.load(index);
   const std::vector<std::uint32_t> labels = sequence.labels(scan);
   std::vector<float> values(4 * scan.size());
@@ -59,7 +139,7 @@ void write_scan(const SimulatedSequence& sequence, std::size_t index,
                labels.size() * sizeof(std::uint32_t));
 }
 
-void write_tables(const SimulatedSequence& sequence, simulated::SceneFolder& folder) {
+void write_tables(const SimulatedSequence& sequence, SceneFolder& folder) {
   const Pose Tr = camera_from_lidar();
   std::string poses;
   std::string times;
@@ -83,7 +163,7 @@ std::string angle_text(const std::string& what, double degrees) {
 }
 
 void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
-                       simulated::SceneFolder& folder) {
+                       SceneFolder& folder) {
   const auto known = sensor_model_names();
   const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
   nlohmann::ordered_json record;
@@ -122,7 +202,7 @@ nlohmann::ordered_json moves_of(const SimulatedSequence& sequence, std::size_t m
   return changes;
 }
 
-void write_movers(const SimulatedSequence& sequence, simulated::SceneFolder& folder) {
+void write_movers(const SimulatedSequence& sequence, SceneFolder& folder) {
   std::vector<std::vector<MoverTruth>> states;
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     states.push_back(sequence.movers(static_cast<double>(i) * sequence.scan_period_s()));
@@ -139,11 +219,7 @@ void write_movers(const SimulatedSequence& sequence, simulated::SceneFolder& fol
   folder.write("movers.json", movers.dump(1) + "\n");
 }
 
-}  // namespace
-
-namespace simulated {
-
-void write_scene(const SceneWriting& writing, const fs::path& folder) {
+void write_files(const SceneWriting& writing, const fs::path& folder) {
   const auto sequence = make_simulated(writing.options, writing.threads);
   SceneFolder files(folder);
   Progress* progress = writing.progress;
@@ -160,21 +236,119 @@ void write_scene(const SceneWriting& writing, const fs::path& folder) {
   files.finish(writing.identity);
 }
 
-}  // namespace simulated
+struct ListedFile {
+  std::string name;
+  std::uintmax_t bytes = 0;
+  std::string hash;
+};
 
-void write_simulated(const SimulationOptions& options, const fs::path& folder, int threads,
-                     Progress* progress, const std::atomic<bool>* cancel) {
-  if (is_there(folder) && (!is_folder(folder) || !entries_of(folder).empty())) {
+/// @throws nlohmann::json::exception if it has another form
+std::vector<ListedFile> listed_files(const nlohmann::json& manifest) {
+  std::vector<ListedFile> files;
+  for (const auto& [name, file] : manifest.at("files").items()) {
+    files.push_back(
+        {name, file.at("bytes").get<std::uintmax_t>(), file.at("xxh3_128").get<std::string>()});
+  }
+  return files;
+}
+
+std::string size_problem(const fs::path& folder, const std::vector<ListedFile>& files) {
+  std::size_t scans = 0;
+  for (const ListedFile& file : files) {
+    if (!has_file(folder / file.name)) return file.name + " is missing";
+    const std::uintmax_t bytes = plain_file_size(folder / file.name);
+    if (bytes != file.bytes) {
+      return file.name + " has " + grouped_text(bytes) + " bytes, written were " +
+             grouped_text(file.bytes);
+    }
+    scans += file.name.starts_with("velodyne/") ? 1 : 0;
+  }
+  if (!has_folder(folder / "velodyne")) return "velodyne/ is missing";
+  const std::vector<fs::path> there = entries_of(folder / "velodyne");
+  const auto found = static_cast<std::size_t>(std::count_if(
+      there.begin(), there.end(), [](const fs::path& path) { return path.extension() == ".bin"; }));
+  if (found != scans) {
+    return "velodyne/ has " + counted_text(found, "scan") + ", written were " +
+           std::to_string(scans);
+  }
+  return "";
+}
+
+std::string content_problem(const fs::path& folder, const std::vector<ListedFile>& files,
+                            int threads) {
+  std::vector<char> differs(files.size(), 0);
+  parallel_for(threads, files.size(), 1, [&](std::size_t i) {
+    const std::vector<std::byte> bytes = read_bytes(folder / files[i].name);
+    differs[i] = hash_of(bytes.data(), bytes.size()) != files[i].hash ? 1 : 0;
+  });
+  const auto changed = std::find(differs.begin(), differs.end(), 1);
+  if (changed == differs.end()) return "";
+  return files[static_cast<std::size_t>(changed - differs.begin())].name +
+         " has another content than was written";
+}
+
+}  // namespace
+
+void write_scene(const SceneWriting& writing, const fs::path& target,
+                 const std::function<bool()>& is_made) {
+  Part part = new_part_folder(target);
+  if (!part.held.valid()) {
+    throw DataError(part.place.string() + ": cannot be made (" +
+                    std::generic_category().message(errno) +
+                    "). Choose a folder you may write to.");
+  }
+  const fs::path place = part.place;
+  try {
+    write_files(writing, place);
+    if (is_made()) {
+      fs::remove_all(place);
+      return;
+    }
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(place, ignored);
+    throw;
+  }
+  Replacements all;
+  all.add(std::move(part), target);
+  all.commit();
+}
+
+std::string scene_folder_problem(const fs::path& folder, const std::string& identity,
+                                 bool with_content, int threads) {
+  try {
+    const fs::path list = folder / kManifestName;
+    if (!has_file(list)) return std::string(kManifestName) + " is missing";
+    const nlohmann::json manifest = read_json(list);
+    if (manifest.at("identity") != identity) return "it is of another scene";
+    const std::vector<ListedFile> files = listed_files(manifest);
+    const std::string problem = size_problem(folder, files);
+    return problem.empty() && with_content ? content_problem(folder, files, threads) : problem;
+  } catch (const nlohmann::json::exception&) {
+    return std::string(kManifestName) + " is damaged";
+  } catch (const UnreadableError&) {
+    throw;  // Nobody can say that something is wrong with it.
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace raymoval::simulated
+
+namespace raymoval {
+
+void write_simulated(const SimulationOptions& options, const std::filesystem::path& folder,
+                     int threads, Progress* progress, const std::atomic<bool>* cancel) {
+  const auto check_free = [&] {
+    if (!is_there(folder) || (is_folder(folder) && entries_of(folder).empty())) return false;
     throw DataError(
         folder.string() +
         ": exists already and is not an empty folder; remove it or choose another one.");
-  }
-  (void)make_folders(folder_of(folder));  // An error shows when the place is made.
-  simulated::MakingPlace place(folder);
-  simulated::write_scene({options, "", threads, progress, cancel}, place.folder());
-  if (!place.take_place()) {
-    throw DataError(folder.string() + ": something else took this name meanwhile.");
-  }
+  };
+  check_free();
+  (void)make_folders(folder_of(folder));  // An error shows when the files are written.
+  simulated::write_scene({options, "", threads, progress, cancel}, without_slash(folder),
+                         check_free);
 }
 
 }  // namespace raymoval

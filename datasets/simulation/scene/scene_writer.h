@@ -3,12 +3,16 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "core/progress.h"
 #include "datasets/simulation/scene/simulated.h"
 
 namespace raymoval::simulated {
+
+/// Name of the file that lists all others of a folder with their sizes and hashes.
+inline constexpr const char* kManifestName = "manifest.json";
 
 /// What scene is written, and how.
 struct SceneWriting {
@@ -19,8 +23,21 @@ struct SceneWriting {
   const std::atomic<bool>* cancel = nullptr;  ///< Checked before each scan.
 };
 
-/// Writes the files of a scene into `folder`, which exists and is empty; the list of them last.
+/// Writes the files of a scene into a new folder beside `target`, the list of them last, and gives
+/// it the name `target`, in place of what has that name. A folder with the list is whole, also
+/// after a power failure.
+/// @param is_made asked when all is written: whether `target` is the scene by now, and stays
 /// @throws as `make_simulated`; DataError if a file cannot be written; Cancelled
-void write_scene(const SceneWriting& writing, const std::filesystem::path& folder);
+void write_scene(const SceneWriting& writing, const std::filesystem::path& target,
+                 const std::function<bool()>& is_made);
+
+/// What keeps `folder` from being all that was once written there as `identity`: no list, a file
+/// that is missing or has another size, a scan too many. Empty if it is whole. Files that nobody
+/// reads as part of the sequence do not count.
+/// @param with_content whether the files' hashes are compared too
+/// @param threads used for reading
+/// @throws UnreadableError (see core/files/file_kind.h)
+std::string scene_folder_problem(const std::filesystem::path& folder, const std::string& identity,
+                                 bool with_content, int threads);
 
 }  // namespace raymoval::simulated

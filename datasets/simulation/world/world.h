@@ -10,7 +10,6 @@
 
 #include "datasets/simulation/shapes/mesh.h"
 #include "datasets/simulation/shapes/random.h"
-#include "datasets/simulation/world/air.h"
 #include "datasets/simulation/world/ego.h"
 #include "datasets/simulation/world/ground.h"
 #include "datasets/simulation/world/mover.h"

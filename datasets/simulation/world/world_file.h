@@ -10,11 +10,10 @@
 
 #include "core/files/fields.h"
 #include "datasets/simulation/shapes/parts.h"
-#include "datasets/simulation/world/air.h"
 #include "datasets/simulation/world/ego.h"
 #include "datasets/simulation/world/ground.h"
 #include "datasets/simulation/world/mover.h"
-#include "datasets/simulation/world/queue.h"
+#include "datasets/simulation/world/path.h"
 
 namespace raymoval::simulated {
 

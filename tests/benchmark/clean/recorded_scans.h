@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "datasets/clouds/format/point_layout.h"
+#include "datasets/clouds/format/field_names.h"
 #include "datasets/records/record_source.h"
 #include "datasets/sequence.h"
 

@@ -11,7 +11,7 @@
 #include "core/scan/local_frame.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
-#include "datasets/world_axes/gravity.h"
+#include "datasets/world_axes/up_direction.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;

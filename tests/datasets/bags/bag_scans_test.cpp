@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/bags/ros1/ros1_writer.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "tests/datasets/bags/message_bytes.h"
+#include "tests/datasets/bags/ros1_writer.h"
 #include "tests/datasets/temporary_folder.h"
 
 namespace raymoval::test {
@@ -28,19 +29,13 @@ std::vector<double> shift(double x, double y = 0, double z = 0) {
 /// so that whoever takes one time for the other is found out.
 class MadeBag {
  public:
-  explicit MadeBag(const std::filesystem::path& path) : path_(path), file_(path), writer_(file_) {
-    writer_.begin_chunk(Ros1Compression::kLz4);
-  }
+  explicit MadeBag(std::filesystem::path path) : path_(std::move(path)) {}
   void add(const std::string& topic, const std::string& type, double seconds,
            const std::string& message) {
     const auto id = static_cast<std::uint32_t>(std::find(topics_.begin(), topics_.end(), topic) -
                                                topics_.begin());
     if (id == topics_.size()) topics_.push_back(topic);
-    const auto field = [](const std::string& text) {
-      return words({static_cast<std::uint32_t>(text.size())}) + text;
-    };
-    writer_.message({id, topic, type, "", field("type=" + type)}, from_seconds(seconds + 5),
-                    message);
+    writer_.message(id, topic, type, "", from_seconds(seconds + 5), message);
   }
   /// Two points, (10, y, 1) with `y` = 1000 * the time, and one without a return.
   void cloud(double seconds, const std::string& frame = "lidar",
@@ -67,8 +62,7 @@ class MadeBag {
     add(topic, "tf2_msgs/TFMessage", seconds, message.bytes());
   }
   std::string finish() {
-    writer_.finish();
-    file_.commit();
+    std::ofstream(path_, std::ios::binary) << writer_.finish();
     return path_.string();
   }
 
@@ -79,8 +73,7 @@ class MadeBag {
             static_cast<std::uint32_t>(stamp % 1'000'000'000)};
   }
   std::filesystem::path path_;
-  FileWriter file_;
-  Ros1Writer writer_;
+  Ros1Writer writer_{Ros1Compression::kLz4};
   std::vector<std::string> topics_;
 };
 

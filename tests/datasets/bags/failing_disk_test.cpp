@@ -9,7 +9,7 @@
 
 #include "core/files/descriptor.h"
 #include "core/files/file_kind.h"
-#include "datasets/bags/rewriting/rewrite_bag.h"
+#include "datasets/bags/bag.h"
 #include "tests/datasets/bags/recordings.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -47,20 +47,6 @@ TEST_CASE("A disk that fails below a recording is no damage", "[bags]") {
   const std::string message = test::message_of<UnreadableError>([&] { (void)bag->message(0, 0); });
   test::check_says(message, {path.filename().string(), "cannot be read", "disk"});
   CHECK(bag->damage().empty());
-}
-
-TEST_CASE("Nothing is written where the disk fails below a recording", "[bags][rewriting]") {
-  const std::string name = GENERATE("bag_ros1/rosbag_none.bag", "bag_mcap/zstd.mcap");
-  CAPTURE(name);
-  const TemporaryFolder folder;
-  const std::string ending = fs::path(name).extension().string();
-  const fs::path path = folder.write("in" + ending, test::file_bytes(test::recording(name)));
-  const auto fail = [&](std::size_t, std::size_t, const std::string& message) {
-    fail_reads_of(path);
-    return std::optional(message);
-  };
-  CHECK_THROWS_AS(rewrite_bag(path, folder / ("out" + ending), fail), UnreadableError);
-  CHECK_FALSE(fs::exists(folder / ("out" + ending)));
 }
 
 }  // namespace

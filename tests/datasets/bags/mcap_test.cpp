@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "datasets/bags/mcap/mcap_bag.h"
-#include "datasets/bags/mcap/mcap_records.h"
+#include "datasets/bags/mcap/mcap_file.h"
 #include "tests/datasets/bags/recordings.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -60,53 +60,44 @@ TEST_CASE("A false byte in a MCAP file never gives a message that was not publis
   }
 }
 
+/// A number with its lowest byte first.
+template <class Number>
+std::string number(Number value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+std::string text(std::string_view text) {
+  return number(static_cast<std::uint32_t>(text.size())) + std::string(text);
+}
+
+std::string record(McapOp op, const std::string& content) {
+  return number(op) + number(std::uint64_t{content.size()}) + content;
+}
+
 /// A file of records, without a summary.
 std::string mcap_of(const std::vector<std::pair<McapOp, std::string>>& records) {
   std::string bytes(kMcapMagic);
-  for (const auto& [op, content] : records) put_record(bytes, op, content);
-  put_record(bytes, McapOp::kFooter, std::string(20, '\0'));
-  return bytes + std::string(kMcapMagic);
+  for (const auto& [op, content] : records) bytes += record(op, content);
+  return bytes + record(McapOp::kFooter, std::string(20, '\0')) + std::string(kMcapMagic);
 }
 
 std::string schema(std::uint16_t id, std::string_view name) {
-  std::string content;
-  put_u16(content, id);
-  put_text(content, name);
-  put_text(content, "ros2msg");
-  put_text(content, "");
-  return content;
+  return number(id) + text(name) + text("ros2msg") + text("");
 }
 
 std::string channel(std::uint16_t id, std::uint16_t of, std::string_view topic,
                     std::string_view encoding) {
-  std::string content;
-  put_u16(content, id);
-  put_u16(content, of);
-  put_text(content, topic);
-  put_text(content, encoding);
-  put_text(content, "");
-  return content;
+  return number(id) + number(of) + text(topic) + text(encoding) + text("");
 }
 
-std::string message(std::uint16_t of, std::uint64_t time, std::string_view text) {
-  std::string content;
-  put_u16(content, of);
-  put_u32(content, 0);
-  put_u64(content, time);
-  put_u64(content, time);
-  return content + std::string(text);
+std::string message(std::uint16_t of, std::uint64_t time, std::string_view content) {
+  return number(of) + number(std::uint32_t{0}) + number(time) + number(time) + std::string(content);
 }
 
 std::string chunk(std::string_view compression, std::uint64_t unpacked, std::uint32_t crc,
                   std::string_view packed) {
-  std::string content;
-  put_u64(content, 0);
-  put_u64(content, 0);
-  put_u64(content, unpacked);
-  put_u32(content, crc);
-  put_text(content, compression);
-  put_u64(content, packed.size());
-  return content + std::string(packed);
+  return number(std::uint64_t{0}) + number(std::uint64_t{0}) + number(unpacked) + number(crc) +
+         text(compression) + number(std::uint64_t{packed.size()}) + std::string(packed);
 }
 
 TEST_CASE("Records of unknown kinds are passed over, and one of kind 0 is damage", "[bags][mcap]") {

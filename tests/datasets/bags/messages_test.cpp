@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/bags/messages/cut_points.h"
 #include "datasets/bags/messages/point_cloud.h"
 #include "datasets/bags/messages/pose_messages.h"
 #include "tests/datasets/bags/message_bytes.h"
@@ -222,25 +221,6 @@ TEST_CASE("Livox's CustomMsg gives its points with all fields", "[bags]") {
     CHECK(head.size == 3);
     CHECK(head.header.stamp == 1000000000005);
     CHECK(head.header.frame_id == "livox");
-  }
-}
-
-TEST_CASE("Points are cut out of a message, and all else stays bit for bit", "[bags]") {
-  for (const auto& [encoding, writing] : writings()) {
-    const std::string cloud = cloud_message(writing, padded_head(), padded_data());
-    CHECK(without_points(cloud, kCloud, encoding, {1, 1, 1, 1}, "m") == cloud);
-    CloudHead head = padded_head();
-    head.height = 1;
-    head.row_step = 32;
-    CHECK(
-        without_points(cloud, kCloud, encoding, {0, 1, 0, 1}, "m") ==
-        cloud_message(writing, head, padded_point(2, 20) + padded_point(4, 40)).replace(0, 0, ""));
-    const std::string none = without_points(cloud, kCloud, encoding, {0, 0, 0, 0}, "m");
-    CHECK(points_of(none, encoding).size() == 0);
-    const std::string livox = livox_message(writing, {1, 2, 3});
-    CHECK(without_points(livox, kLivox, encoding, {1, 0, 1}, "m") ==
-          livox_message(writing, {1, 3}));
-    CHECK_THROWS_AS(without_points(cloud, kCloud, encoding, {1}, "m"), InternalError);
   }
 }
 

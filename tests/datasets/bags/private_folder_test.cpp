@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Recordings that are unpacked to TMPDIR do not stay there when their readers are killed.
-#include "datasets/bags/chunks/private_folder.h"
+#include "datasets/bags/private_folder.h"
 
 #include <sys/stat.h>
 #include <sys/wait.h>

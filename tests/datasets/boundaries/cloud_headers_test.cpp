@@ -4,8 +4,7 @@
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/pcd/pcd_header.h"
-#include "datasets/clouds/ply/ply_header.h"
+#include "datasets/clouds/format/cloud_header.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/cloud_writer.h"
 #include "datasets/layouts.h"
 #include "datasets/open_sequence.h"
 #include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/written_cloud.h"
 
 using namespace raymoval;
 using namespace raymoval::test;
@@ -119,27 +119,8 @@ TEST_CASE("a layout of a test is asked after scenes and before folders", "[layou
 }
 
 TEST_CASE("a .bin file has no room for float64", "[cloud]") {
-  const TemporaryFolder folder;
-  CloudWriter writer(folder / "map.bin");
-  check_says(message_of<UsageError>([&] { writer.start(false, Coordinates::kDouble); }),
+  check_says(message_of<UsageError>([] { check_coordinates("map.bin", Coordinates::kDouble); }),
              {"map.bin: a .bin file holds float32 numbers only"});
   CHECK_NOTHROW(check_coordinates("map.bin", Coordinates::kFloat));
   CHECK_NOTHROW(check_coordinates("map.pcd", Coordinates::kDouble));
-}
-
-TEST_CASE("a cloud of float64 keeps its intensities", "[cloud]") {
-  const TemporaryFolder folder;
-  for (const char* name : {"a.pcd", "a.ply"}) {
-    CloudWriter writer(folder / name);
-    writer.start(true, Coordinates::kDouble);
-    writer.add({{1, 2, 3}}, {0.5F});
-    writer.add_exact({{0.1, 0.2, 0.3}}, {7});
-    writer.finish();
-    writer.commit();
-    const Cloud cloud = read_cloud(folder / name, Eigen::Vector3d(0.1, 0.2, 0.3));
-    REQUIRE(cloud.points.size() == 2);
-    CHECK(cloud.points[1] == Eigen::Vector3f::Zero());
-    CHECK(cloud.intensity == std::vector<float>{0.5F, 7});
-    CHECK_THROWS_AS(CloudWriter(folder / name).add({{1, 2, 3}}, {1, 2}), InternalError);
-  }
 }

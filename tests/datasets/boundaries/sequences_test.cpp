@@ -8,13 +8,14 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/scan/sensor_model.h"
-#include "datasets/clouds/cloud_writer.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/layouts.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/reading/loaded_data.h"
 #include "datasets/semantickitti/semantickitti.h"
 #include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/written_cloud.h"
 
 using namespace raymoval;
 using namespace raymoval::test;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scans whose points are not of 4 numbers are told from those whose points are.
-#include "datasets/clouds/bin/bin_width.h"
+#include "datasets/clouds/cloud_file.h"
 
 #include <algorithm>
 #include <cmath>

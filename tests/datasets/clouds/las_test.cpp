@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/las/las_layout.h"
-#include "datasets/clouds/las/las_notes.h"
+#include "datasets/clouds/las/las_fields.h"
+#include "datasets/clouds/las/las_head.h"
 #include "tests/datasets/clouds/record_files.h"
 
 using namespace raymoval;

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
-#include "datasets/clouds/format/point_layout.h"
-#include "datasets/clouds/las/las_notes.h"
+#include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/las/las_head.h"
 #include "datasets/clouds/las/reference_system.h"
 #include "tests/datasets/clouds/record_files.h"
 

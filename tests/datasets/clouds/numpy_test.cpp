@@ -8,8 +8,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/format/deflate.h"
-#include "datasets/clouds/numpy/python_value.h"
+#include "datasets/clouds/format/gzip.h"
 #include "tests/datasets/clouds/record_files.h"
 
 using namespace raymoval;
@@ -54,6 +53,11 @@ std::string raw(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
+std::uint32_t checksum_of(const std::string& bytes) {
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(::crc32(0, data, static_cast<uInt>(bytes.size())));
+}
+
 struct ZipFile {
   std::string name, content;
   bool packed = false, wide = false;  ///< `wide`: its sizes stand in a zip64 block.
@@ -73,7 +77,7 @@ std::string zip_of(const std::vector<ZipFile>& files, bool zip64 = false) {
                                               raw(std::uint64_t{packed.size()})
                                         : "";
     const std::string common = raw(std::uint16_t{20}) + raw(std::uint16_t{0}) + raw(method) +
-                               raw(std::uint32_t{0}) + raw(crc32_of(file.content)) +
+                               raw(std::uint32_t{0}) + raw(checksum_of(file.content)) +
                                small(packed.size()) + small(file.content.size()) + raw(name_bytes) +
                                raw(static_cast<std::uint16_t>(extra.size()));
     directory += "PK\x01\x02" + raw(std::uint16_t{20}) + common + raw(std::uint16_t{0}) +
@@ -85,7 +89,8 @@ std::string zip_of(const std::vector<ZipFile>& files, bool zip64 = false) {
   archive += directory;
   if (zip64) {
     const std::uint64_t end64 = archive.size();
-    archive += "PK\x06\x06" + std::string(28, '\0') + raw(std::uint64_t{files.size()}) +
+    archive += "PK\x06\x06" + raw(std::uint64_t{44}) + std::string(12, '\0') +
+               raw(std::uint64_t{files.size()}) + raw(std::uint64_t{files.size()}) +
                raw(std::uint64_t{directory.size()}) + raw(std::uint64_t{start});
     archive += "PK\x06\x07" + raw(std::uint32_t{0}) + raw(end64) + raw(std::uint32_t{1});
   }
@@ -181,7 +186,7 @@ TEST_CASE("what is no array of points is named", "[numpy]") {
   }
   check_says(npy_error(npy("'<f4'", "(4294967295, 4294967295, 4)", body)), {"truncated"});
   check_says(npy_error(npy("'<f4'", "(4294967296, 4)", body)), {"no count"});
-  check_says(npy_error(npy("'<f4'", "(-1, 4)", body)), {"expected a value"});
+  check_says(npy_error(npy("'<f4'", "(-1, 4)", body)), {"is damaged at its column"});
   for (const char* type : {"'|O'", "'<f2'", "'<f16'", "'<x4'", "'<f'", "''", "'<i3'"}) {
     check_says(npy_error(npy(type, "(1, 4)", body)), {"which is not read", "expected numbers"});
   }
@@ -193,8 +198,9 @@ TEST_CASE("what is no array of points is named", "[numpy]") {
                            body)),
              {"more than 1 MiB"});
   check_says(npy_error(npy("[('a', [('x', '<f4')], (2,))]", "(1,)", body)), {"repeats a group"});
-  check_says(npy_error(npy("'<f4'", "(1, 4), 'a': " + std::string(40, '['), body)), {"too deep"});
-  check_says(npy_error(npy("__import__('os')", "(1, 4)", body)), {"expected a value"});
+  check_says(npy_error(npy("'<f4'", "(1, 4), 'a': " + std::string(5000, '['), body, 2)),
+             {"is damaged at its column"});
+  check_says(npy_error(npy("__import__('os')", "(1, 4)", body)), {"is damaged at its column"});
   check_says(npy_error(npy("'<f4", "(1, 4)", body)), {"head of the array is damaged"});
 }
 

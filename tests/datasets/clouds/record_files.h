@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/cloud_file.h"
 #include "tests/datasets/temporary_folder.h"
 
 namespace raymoval::test {

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/ego/ego_free_source.h"
+#include "datasets/ego/ego_region.h"
 #include "datasets/open_sequence.h"
 #include "tests/datasets/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/trajectories/pose_lookup.h"
+#include "datasets/trajectories/trajectory.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "datasets/clouds/cloud_writer.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "tests/datasets/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 
 #include "benchmark/clean/clean_outputs.h"
 #include "core/files/files.h"
-#include "datasets/clouds/record_file.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 #include "tests/datasets/temporary_folder.h"
@@ -80,28 +80,28 @@ TEST_CASE("Some scans of a folder get the poses that are theirs") {
   CHECK(again.scans->pose(1).translation().x() == 30.0);
 }
 
-TEST_CASE("Cleaned scans have the form of the scans: text, compressed, packed") {
+TEST_CASE("Scans of a recording become .pcd files with a pose file") {
   const TemporaryFolder folder;
-  const std::string name = GENERATE("a.pcd", "b.pcd", "a.npz", "a.pcd.gz");
-  CAPTURE(name);
-  const fs::path root = folder.path() / "data";
-  fs::create_directories(root);
-  PointRecords rows = records_of(
-      driver_layout(), {{1, 1, 1, 0.5, 7, 0.25}, {2, 1, 1, 0.5, 8, 0}, {3, 1, 1, 0.5, 9, 0}});
-  rows.form.text = name == "a.pcd" || name == "a.pcd.gz";
-  rows.form.packed = !rows.form.text;
-  rows.form.array = name == "a.npz" ? "arr_0" : "";
-  write_atomically(root / name, whole_file(name, rows));
-  write_atomically(root / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  const fs::path made = cleaned(folder, open_sequence(root.string(), {}));
-  const PointRecords left = read_records(made / name);
-  REQUIRE(left.size() == 2);
-  CHECK(value_of(left, 0, "time") == 0.25);
-  CHECK(value_of(left, 1, "ring") == 9.0);
-  CHECK(left.form.text == rows.form.text);
-  CHECK(left.form.packed == rows.form.packed);
-  CHECK(left.form.array == rows.form.array);
-  CHECK(open_sequence(made.string(), {}).scans->size() == 1);
+  const fs::path bag = fs::path(RAYMOVAL_SOURCE_DIR) / "tests/fuzz/corpus/bag_ros1/rosbag_lz4.bag";
+  const Sequence drive = open_sequence(bag.string(), {});
+  REQUIRE(drive.scans->size() == 3);
+  CleanPaths paths;
+  paths.scans = folder.path() / "cleaned";
+  CleanOutputs outputs(paths, {}, drive, no_progress(), kGoOn);
+  for (std::size_t i = 0; i < 3; ++i) outputs.add(drive.scans->load(i), {0, 1});
+  outputs.commit();
+  const Sequence again = open_sequence(paths.scans.string(), {});
+  REQUIRE(again.scans->size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(again.scans->load(i).name == drive.scans->load(i).name);
+    CHECK(again.scans->pose(i).isApprox(drive.scans->pose(i)));
+  }
+  const PointRecords rows = read_records(paths.scans / "000001.pcd");
+  REQUIRE(rows.size() == 1);
+  CHECK(value_of(rows, 0, "ring") == 7.0);
+  CHECK(rows.layout == drive.records->layout(1));
+  CHECK_THROWS_WITH(check_paths({.scans = folder.path() / "cleaned.bag"}),
+                    Contains("recordings are not written"));
 }
 
 TEST_CASE("Scans that are in no files are not written one by one") {

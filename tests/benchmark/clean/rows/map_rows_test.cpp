@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "datasets/clouds/format/point_layout.h"
+#include "datasets/clouds/format/field_names.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 
 using namespace raymoval;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "datasets/bags/bag.h"
+
+namespace raymoval {
+
+/// Sentences on what of a recording could not be read. The first few are kept and the rest are
+/// counted, so that a file with damage everywhere fills no memory. All calls are thread-safe.
+class DamageNotes {
+ public:
+  /// How many sentences are kept.
+  static constexpr std::size_t kMost = 8;
+
+  /// @param sentence what is wrong, with the file and the byte. One that is there already is left
+  ///   out.
+  void add(std::string sentence);
+  /// The sentences in the order in which they came, and one with the number of those left out.
+  [[nodiscard]] std::vector<std::string> sentences() const;
+  [[nodiscard]] bool empty() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> kept_;
+  std::size_t more_ = 0;
+};
+
+/// The index of a recording: when each message of each topic was recorded, and where it stands.
+/// It takes 16 bytes a message.
+class MessageTable {
+ public:
+  struct Message {
+    Nanoseconds recorded = 0;
+    std::uint64_t place = 0;  ///< What it means is up to the format; it grows along the file.
+    auto operator<=>(const Message&) const = default;
+  };
+
+  /// The number of the topic with this name, type and encoding, which is a new one if there is
+  /// none. @param key what else tells topics apart, such as the checksum of a type
+  std::size_t topic(const std::string& name, const std::string& type, MessageEncoding encoding,
+                    const std::string& key = {});
+  void add(std::size_t topic, const Message& message);
+  /// Messages added so far.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// Puts the messages of each topic in the order of their times, and where they are equal of their
+  /// places.
+  void finish();
+
+  [[nodiscard]] const std::vector<BagTopic>& topics() const { return topics_; }
+  /// @throws InternalError if there is no such message
+  [[nodiscard]] const Message& at(std::size_t topic, std::size_t index) const;
+
+ private:
+  using Key = std::tuple<std::string, std::string, MessageEncoding, std::string>;
+  std::vector<BagTopic> topics_;
+  std::map<Key, std::size_t> numbers_;
+  std::vector<std::deque<Message>> messages_;  ///< A deque never has twice its size at once.
+  std::uint64_t size_ = 0;
+};
+
+/// "sensor_msgs/PointCloud2" of "sensor_msgs/msg/PointCloud2"; other names stay as they are.
+std::string ros1_type_name(const std::string& type);
+
+}  // namespace raymoval

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/sampling.h"
+#include "core/text.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/format/cloud_header.h"
+#include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/format/stored_points.h"
+
+namespace raymoval {
+namespace {
+
+/// " Rows of 20 bytes (5 float32 numbers) or ... would fit", for sizes that the field uses.
+std::string fitting_sizes(std::uintmax_t bytes) {
+  std::vector<std::string> sizes;
+  for (std::uintmax_t floats = 3; floats <= 8 && bytes > 0; ++floats) {
+    if (bytes % (4 * floats) != 0) continue;
+    sizes.push_back(std::to_string(4 * floats) + " (" + std::to_string(floats) + " float32)");
+  }
+  if (sizes.empty()) return "";
+  return " It would fit points of " + join(sizes, " or ") +
+         " bytes: if they are such, name their fields with --point-layout.";
+}
+
+/// @throws DataError naming the sizes of a point that would fit
+void check_rows(const std::filesystem::path& path, std::uintmax_t bytes,
+                const RecordLayout& layout) {
+  const std::size_t row = layout.row_bytes;
+  if (bytes % row == 0 && bytes / row <= kMostCloudPoints) return;
+  const RecordLayout usual = bin_layout(std::nullopt);
+  throw DataError(path.string() + ": " + grouped_text(bytes) + " bytes is not a multiple of " +
+                  std::to_string(row) + " (" +
+                  (layout == usual ? "x y z reflectance as float32" : point_layout_text(layout)) +
+                  "); the file looks truncated after point " + grouped_text(bytes / row) +
+                  ". Copy it again, or leave it out with --frames." + fitting_sizes(bytes));
+}
+
+StoredPoints bin_points(const CloudBytes& file) {
+  const RecordLayout layout = bin_layout(file.reading.point_layout);
+  check_rows(file.path, file.text.size(), layout);
+  StoredPoints stored{file.text, {}, file.text.size() / layout.row_bytes, layout.row_bytes};
+  for (const PointField& field : layout.fields) {
+    stored.columns.push_back({field, field.offset, layout.row_bytes, false});
+  }
+  return stored;
+}
+
+Cloud read_bin_cloud(const CloudBytes& file, const Eigen::Vector3d& origin) {
+  return cloud_of(bin_points(file), origin, file.path.string());
+}
+
+PointRecords read_bin_records(const CloudBytes& file) {
+  PointRecords records = records_of(bin_points(file));
+  records.layout.unnamed = true;
+  return records;
+}
+
+class BinEncoder : public RecordEncoder {
+ public:
+  void start(const PointRecords&) override {}
+  std::string head(std::uint64_t) const override { return ""; }
+};
+
+std::vector<std::string> lost_in_bin(const RecordLayout& layout) {
+  RecordLayout usual = bin_layout(std::nullopt);
+  usual.unnamed = layout.unnamed;
+  if (layout == usual) return {};
+  return {
+      "A .bin file does not hold the names and types of its fields: read it again with "
+      "--point-layout \"" +
+      point_layout_text(layout) + "\"."};
+}
+
+constexpr std::size_t kUsualWidth = 4;
+constexpr std::array<std::size_t, 4> kOtherWidths = {3, 5, 6, 7};
+/// Numbers in a row of the file, which begin with a point under any of these widths.
+constexpr std::size_t kBlock = 1260;
+constexpr std::size_t kFewestBlocks = 2, kMostBlocks = 8, kMostScans = 5;
+/// Distance up to which columns are alike, and from which on they differ. Simulated scans of all
+/// sensors have at least 0.5 under their own width (0.14 where most points are no returns, at
+/// (0, 0, 0)) and at most 0.07 under another one.
+constexpr double kAlike = 0.1, kDifferent = 0.3;
+
+/// Some blocks of the numbers of a file, evenly spread. Empty for a small file.
+std::vector<float> sampled_numbers(const std::filesystem::path& path) {
+  constexpr std::size_t kBytes = kBlock * sizeof(float);
+  const auto blocks = static_cast<std::size_t>(plain_file_size(path) / kBytes);
+  if (blocks < kFewestBlocks) return {};
+  std::string bytes;
+  for (const std::size_t block : evenly_spread(blocks, kMostBlocks)) {
+    bytes += read_piece(path, block * kBytes, kBytes);
+  }
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+  for (float& number : numbers) {
+    if (!std::isfinite(number)) number = std::numeric_limits<float>::max();
+  }
+  return numbers;
+}
+
+/// The largest difference between the shares of both up to any value: 0 alike, 1 apart.
+/// @param a, b in order
+double distance(const std::vector<float>& a, const std::vector<float>& b) {
+  double most = 0.0;
+  std::size_t in_a = 0, in_b = 0;
+  while (in_a < a.size() && in_b < b.size()) {
+    const float value = std::min(a[in_a], b[in_b]);
+    while (in_a < a.size() && a[in_a] == value) ++in_a;
+    while (in_b < b.size() && b[in_b] == value) ++in_b;
+    most = std::max(most, std::abs(static_cast<double>(in_a) / static_cast<double>(a.size()) -
+                                   static_cast<double>(in_b) / static_cast<double>(b.size())));
+  }
+  return most;
+}
+
+/// The largest distance between columns that a mixture of two widths would make alike: those whose
+/// numbers differ by a multiple of `step`, the common divisor of the widths.
+double column_distance(const std::vector<float>& numbers, std::size_t width, std::size_t step) {
+  std::vector<std::vector<float>> columns(width);
+  for (std::size_t i = 0; i < numbers.size(); ++i) columns[i % width].push_back(numbers[i]);
+  for (std::vector<float>& column : columns) std::sort(column.begin(), column.end());
+  double most = 0.0;
+  for (std::size_t a = 0; a < width; ++a) {
+    for (std::size_t b = a + step; b < width; b += step) {
+      most = std::max(most, distance(columns[a], columns[b]));
+    }
+  }
+  return most;
+}
+
+/// How much the columns differ under `width`; 0 if they differ under the usual width as well.
+double told_apart(const std::vector<float>& numbers, std::size_t width) {
+  const std::size_t step = std::gcd(width, kUsualWidth);
+  if (column_distance(numbers, kUsualWidth, step) > kAlike) return 0.0;
+  return column_distance(numbers, width, step);
+}
+
+/// Those of the other widths that the sizes of all scans fit.
+std::vector<std::size_t> fitting_widths(const std::vector<std::filesystem::path>& scans) {
+  std::vector<std::size_t> widths(kOtherWidths.begin(), kOtherWidths.end());
+  for (const std::filesystem::path& scan : scans) {
+    if (widths.empty()) break;
+    const std::uintmax_t bytes = plain_file_size(scan);
+    std::erase_if(widths, [&](std::size_t width) { return bytes % (width * sizeof(float)) != 0; });
+  }
+  return widths;
+}
+
+/// The one of `widths` under which the columns of each scan differ most, if they do.
+std::optional<std::size_t> seen_width(const std::vector<std::filesystem::path>& scans,
+                                      const std::vector<std::size_t>& widths) {
+  constexpr double kClearly = 0.05;  // Of two widths that do as well, the smaller is the width.
+  std::vector<double> least(widths.size(), 1.0);
+  bool any = false;
+  for (const std::size_t at : evenly_spread(scans.size(), kMostScans)) {
+    const std::vector<float> numbers = sampled_numbers(scans[at]);
+    if (numbers.empty()) continue;
+    any = true;
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      least[k] = std::min(least[k], told_apart(numbers, widths[k]));
+    }
+  }
+  std::optional<std::size_t> seen;
+  double best = kDifferent - kClearly;
+  for (std::size_t k = 0; any && k < widths.size(); ++k) {
+    if (least[k] < best + kClearly) continue;
+    best = least[k];
+    seen = widths[k];
+  }
+  return seen;
+}
+
+}  // namespace
+
+void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes,
+                    const RecordReading& reading) {
+  check_rows(path, bytes, bin_layout(reading.point_layout));
+}
+
+void check_bin_width(const std::vector<std::filesystem::path>& scans,
+                     const RecordReading& reading) {
+  if (reading.point_layout) return;
+  std::vector<std::filesystem::path> bins;
+  std::copy_if(scans.begin(), scans.end(), std::back_inserter(bins),
+               [](const std::filesystem::path& scan) { return scan.extension() == ".bin"; });
+  if (bins.empty()) return;
+  const std::vector<std::size_t> widths = fitting_widths(bins);
+  if (widths.empty()) return;
+  const auto width = seen_width(bins, widths);
+  if (!width) return;
+  std::string layout = "x y z";
+  if (*width > kUsualWidth) layout += " intensity";
+  for (std::size_t k = kUsualWidth; k < *width; ++k) layout += " _";
+  throw DataError(bins.front().string() + ": its points look like " + std::to_string(*width) +
+                  " float32 numbers each (" + std::to_string(*width * sizeof(float)) +
+                  " bytes); expected 4 (x y z reflectance, 16 bytes), under which coordinates and "
+                  "other fields would be mixed. Name the fields of a point: --point-layout \"" +
+                  layout +
+                  "\", with names instead of _ for what is worth keeping. If there are 4 "
+                  "all the same, say --point-layout \"x y z intensity\".");
+}
+
+CloudFormat bin_format() {
+  CloudFormat format{".bin", read_bin_cloud, read_bin_records};
+  format.encoder = [](const std::filesystem::path&,
+                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+    return std::make_unique<BinEncoder>();
+  };
+  format.lost = lost_in_bin;
+  format.read_layout = [](const std::filesystem::path&, const RecordReading& reading) {
+    return bin_layout(reading.point_layout);
+  };
+  return format;
+}
+
+}  // namespace raymoval

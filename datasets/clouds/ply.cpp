@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/format/header_points.h"
+
+namespace raymoval {
+namespace {
+
+struct PlyType {
+  std::string_view name, other_name;
+  char type;
+  int size;
+};
+
+const PlyType* find_type(std::string_view name) {
+  static constexpr std::array<PlyType, 8> kTypes = {{{"char", "int8", 'I', 1},
+                                                     {"uchar", "uint8", 'U', 1},
+                                                     {"short", "int16", 'I', 2},
+                                                     {"ushort", "uint16", 'U', 2},
+                                                     {"int", "int32", 'I', 4},
+                                                     {"uint", "uint32", 'U', 4},
+                                                     {"float", "float32", 'F', 4},
+                                                     {"double", "float64", 'F', 8}}};
+  for (const PlyType& known : kTypes) {
+    if (name == known.name || name == known.other_name) return &known;
+  }
+  return nullptr;
+}
+
+/// A property of an element that stands before the vertices.
+struct Skipped {
+  std::size_t bytes = 0;                ///< Of one value.
+  const PlyType* count_type = nullptr;  ///< Of a list: the type of its count.
+};
+
+struct SkippedElement {
+  std::uint64_t items = 0;
+  std::vector<Skipped> properties;
+
+  [[nodiscard]] bool has_list() const {
+    for (const Skipped& property : properties) {
+      if (property.count_type != nullptr) return true;
+    }
+    return false;
+  }
+};
+
+class PlyHeaderParser {
+ public:
+  PlyHeaderParser(std::string_view bytes, const std::filesystem::path& path)
+      : bytes_(bytes), path_(path), lines_(bytes, path, "end_header") {}
+
+  CloudHeader parse() {
+    const auto magic = lines_.next();
+    if (magic.size() != 1 || magic.front() != "ply") lines_.fail("expected 'ply'.");
+    header_.points_end_the_file = false;
+    for (auto words = lines_.next(); words.empty() || words[0] != "end_header";
+         words = lines_.next()) {
+      if (!words.empty()) read_line(words);
+    }
+    if (!format_seen_) throw DataError(path_.string() + ": the header has no format line.");
+    if (where_ != Where::kVertices && where_ != Where::kBehind) {
+      throw DataError(path_.string() +
+                      ": has no points: expected 'element vertex COUNT' in the header. If it is "
+                      "something else than scans, leave it out.");
+    }
+    header_.body_offset = lines_.offset();
+    header_.body_line = lines_.line() + 1;
+    header_.width = header_.points;
+    check_fields(header_, path_);
+    for (const SkippedElement& element : before_) skip(element);
+    return std::move(header_);
+  }
+
+ private:
+  enum class Where { kNoElement, kBefore, kVertices, kBehind };
+
+  void read_line(const std::vector<std::string_view>& words) {
+    if (words[0] == "comment" || words[0] == "obj_info") return;
+    if (words[0] == "format") return read_format(words);
+    if (words[0] == "element") return read_element(words);
+    if (words[0] == "property") return read_property(words);
+    lines_.fail("'" + std::string(words[0].substr(0, 40)) + "' is no entry of a PLY header.");
+  }
+
+  void read_format(const std::vector<std::string_view>& words) {
+    const std::string_view name = words.size() == 3 ? words[1] : std::string_view();
+    header_.big_endian = name == "binary_big_endian";
+    header_.encoding = name == "ascii" ? CloudEncoding::kAscii : CloudEncoding::kBinary;
+    format_seen_ = true;
+    if (name == "ascii" || name == "binary_little_endian" || header_.big_endian) return;
+    lines_.fail(
+        "expected 'format ascii 1.0', 'format binary_little_endian 1.0' or "
+        "'format binary_big_endian 1.0'.");
+  }
+
+  void read_element(const std::vector<std::string_view>& words) {
+    const bool vertices_seen = where_ == Where::kVertices || where_ == Where::kBehind;
+    const bool vertex = words.size() > 1 && words[1] == "vertex";
+    if (words.size() != 3 || (vertex && vertices_seen)) {
+      lines_.fail("expected 'element NAME COUNT', and the name 'vertex' once.");
+    }
+    const auto count = lines_.number<std::uint64_t>(words[2], 0, kMostCloudPoints);
+    if (vertex) {
+      where_ = Where::kVertices;
+      header_.points = count;
+    } else if (vertices_seen) {
+      where_ = Where::kBehind;
+    } else {
+      where_ = Where::kBefore;
+      before_.push_back({count, {}});
+    }
+  }
+
+  void read_property(const std::vector<std::string_view>& words) {
+    if (where_ == Where::kNoElement) lines_.fail("a property before any element.");
+    if (where_ == Where::kBehind) return;
+    const PlyType* type = words.size() == 3 ? find_type(words[1]) : nullptr;
+    if (where_ == Where::kVertices) {
+      if (type == nullptr) {
+        lines_.fail(
+            "a vertex property has to be 'property TYPE NAME' with a plain number type (no list).");
+      }
+      return header_.add(std::string(words[2]), type->type, type->size, 1);
+    }
+    const PlyType* count_type = nullptr;
+    if (words.size() == 5 && words[1] == "list") {
+      count_type = find_type(words[2]);
+      type = find_type(words[3]);
+      if (count_type == nullptr || count_type->type == 'F') type = nullptr;
+    }
+    if (type == nullptr) {
+      lines_.fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'.");
+    }
+    before_.back().properties.push_back({static_cast<std::size_t>(type->size), count_type});
+  }
+
+  /// Moves where the points begin behind the items of `element`.
+  void skip(const SkippedElement& element) {
+    if (header_.encoding == CloudEncoding::kAscii) return skip_lines(element.items);
+    if (!element.has_list()) {
+      std::uint64_t bytes = 0;
+      for (const Skipped& property : element.properties) bytes += property.bytes;
+      return skip_bytes(bytes, element.items);
+    }
+    for (std::uint64_t item = 0; item < element.items; ++item) {
+      for (const Skipped& property : element.properties) {
+        skip_bytes(property.bytes, property.count_type == nullptr ? 1 : list_count(property));
+      }
+    }
+  }
+
+  void skip_lines(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count;) {
+      const std::size_t end = bytes_.find('\n', header_.body_offset);
+      if (end == std::string_view::npos) fail_cut();
+      const std::string_view line = bytes_.substr(header_.body_offset, end - header_.body_offset);
+      i += line.find_first_not_of(" \t\r") == std::string_view::npos ? 0 : 1;
+      header_.body_offset = end + 1;
+      ++header_.body_line;
+    }
+  }
+
+  void skip_bytes(std::uint64_t size, std::uint64_t count) {
+    const std::uint64_t left = bytes_.size() - header_.body_offset;
+    if (size != 0 && count > left / size) fail_cut();
+    header_.body_offset += size * count;
+  }
+
+  std::uint64_t list_count(const Skipped& property) {
+    std::array<char, 4> raw{};
+    const auto size = static_cast<std::size_t>(property.count_type->size);
+    const std::size_t at = header_.body_offset;
+    skip_bytes(size, 1);
+    std::memcpy(raw.data(), bytes_.data() + at, size);
+    if (header_.big_endian) std::reverse(raw.begin(), raw.begin() + property.count_type->size);
+    std::uint32_t count = 0;
+    std::memcpy(&count, raw.data(), sizeof count);
+    const bool below_zero = property.count_type->type == 'I' && (count >> (8 * size - 1)) != 0;
+    if (below_zero) fail_cut();
+    return count;
+  }
+
+  [[noreturn]] void fail_cut() const {
+    throw DataError(path_.string() +
+                    ": the file ends within the elements before its vertices; it looks truncated. "
+                    "Copy it again.");
+  }
+
+  std::string_view bytes_;
+  const std::filesystem::path& path_;
+  HeaderLines lines_;
+  CloudHeader header_;
+  std::vector<SkippedElement> before_;
+  Where where_ = Where::kNoElement;
+  bool format_seen_ = false;
+};
+
+/// Whether PLY has no type for the values of `field`.
+bool is_wide(const PointField& field) {
+  return field.type != 'F' && field.size == 8;
+}
+
+const char* type_name(const PointField& field) {
+  if (field.type == 'F') return field.size == 4 ? "float" : "double";
+  if (is_wide(field)) return "double";
+  const bool is_signed = field.type == 'I';
+  if (field.size == 1) return is_signed ? "char" : "uchar";
+  if (field.size == 2) return is_signed ? "short" : "ushort";
+  return is_signed ? "int" : "uint";
+}
+
+class PlyEncoder : public RecordEncoder {
+ public:
+  void start(const PointRecords& first) override {
+    const std::vector<std::string> names = fitting_names(value_names(first.layout), {});
+    std::size_t value = 0;
+    for (const PointField& field : first.layout.fields) {
+      for (int at = 0; at < field.count; ++at, ++value) {
+        properties_ += std::string("property ") + type_name(field) + " " + names[value] + "\n";
+      }
+      packed_ = packed_ && !is_wide(field) && field.offset == packed_bytes_;
+      packed_bytes_ += field.bytes();
+    }
+    packed_ = packed_ && packed_bytes_ == first.layout.row_bytes;
+  }
+
+  std::string head(std::uint64_t points) const override {
+    constexpr std::size_t kCountDigits = 10;
+    const std::string count = std::to_string(points);
+    // Blanks in a comment give room for the digits, so that the head always has the same length.
+    return "ply\nformat binary_little_endian 1.0\ncomment Written by raymoval" +
+           std::string(kCountDigits - count.size(), ' ') + "\nelement vertex " + count + "\n" +
+           properties_ + "end_header\n";
+  }
+
+  std::string rows(const PointRecords& more) override {
+    if (packed_) return RecordEncoder::rows(more);
+    std::string bytes;
+    bytes.reserve(more.size() * packed_bytes_);
+    for (std::size_t i = 0; i < more.size(); ++i) {
+      for (const PointField& field : more.layout.fields) put(more, i, field, bytes);
+    }
+    return bytes;
+  }
+
+ private:
+  static void put(const PointRecords& rows, std::size_t row, const PointField& field,
+                  std::string& bytes) {
+    if (!is_wide(field)) {
+      bytes.append(reinterpret_cast<const char*>(rows.row(row) + field.offset), field.bytes());
+      return;
+    }
+    for (int at = 0; at < field.count; ++at) {
+      const double value = rows.value(row, field, at);
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  }
+
+  std::string properties_;
+  bool packed_ = true;  ///< Whether the rows are the file's as they are.
+  std::size_t packed_bytes_ = 0;
+};
+
+std::vector<std::string> lost_in_ply(const RecordLayout& layout) {
+  std::vector<std::string> sentences;
+  for (const PointField& field : layout.fields) {
+    if (!is_wide(field)) continue;
+    sentences.push_back("The field '" + field.name + "' is " + PointField{field}.text() +
+                        ", which PLY does not have: it is written as double, and numbers beyond "
+                        "2^53 (9,007,199,254,740,992) are rounded.");
+  }
+  const auto split = split_sentences(layout);
+  sentences.insert(sentences.end(), split.begin(), split.end());
+  const std::vector<std::string> wanted = value_names(layout);
+  const auto renamed = renamed_sentences(wanted, fitting_names(wanted, {}));
+  sentences.insert(sentences.end(), renamed.begin(), renamed.end());
+  return sentences;
+}
+
+}  // namespace
+
+CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path) {
+  return PlyHeaderParser(bytes, path).parse();
+}
+
+CloudFormat ply_format() {
+  CloudFormat format{".ply"};
+  format.read_cloud = [](const CloudBytes& file, const Eigen::Vector3d& origin) {
+    return header_cloud(parse_ply_header(file.text, file.path), file, origin);
+  };
+  format.read_records = [](const CloudBytes& file) {
+    return header_records(parse_ply_header(file.text, file.path), file);
+  };
+  format.encoder = [](const std::filesystem::path&,
+                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+    return std::make_unique<PlyEncoder>();
+  };
+  format.lost = lost_in_ply;
+  return format;
+}
+
+}  // namespace raymoval

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/layout.h"
+
+#include "core/error.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/file_source.h"
+#include "datasets/clouds/frames.h"
+#include "datasets/settings.h"
+
+namespace raymoval {
+namespace {
+
+/// Labels by value are those of SemanticKITTI; 0 and 1 say only what moves.
+ClassNames class_names() {
+  ClassNames names = semantickitti_class_names();
+  names.erase(0);
+  names.erase(1);
+  return names;
+}
+
+/// Poses and frame are those that the files say.
+void check_no_pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder) {
+  const std::string why =
+      " cannot be used: the points of this layout stand in the world frame of the poses in the "
+      "VIEWPOINT of each .pcd file. ";
+  if (settings.poses) {
+    throw UsageError(folder.string() + ": a pose file ('" + *settings.poses + "')" + why +
+                     "Leave --poses out.");
+  }
+  std::string given = first_pose_setting(settings);
+  if (given.empty() && settings.points == PointFrame::kSensor) given = "--points sensor";
+  if (given.empty()) return;
+  throw UsageError(folder.string() + ": " + given + why + "Leave it out.");
+}
+
+Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+  const std::filesystem::path folder = path;
+  SequenceSettings defaults;
+  defaults.label_rule = {"dynamicmap", {1}, {}};
+  const SequenceSettings settings = read_settings(folder, options, defaults);
+  check_no_pose_settings(settings, folder);
+  const auto files = list_numbered_files(folder / "pcd", ".pcd");
+  const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
+  Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
+  std::vector<FrameEntry> entries;
+  std::vector<std::optional<Pose>> poses;
+  for (const NumberedFile& file : chosen.files) {
+    const double time = static_cast<double>(file.number - files.front().number) *
+                        settings.scan_period_s.value_or(kUsualScanPeriod);
+    entries.push_back({file.path, "", file.path.stem().string(), time, read_viewpoint(file.path)});
+    poses.emplace_back(entries.back().T_world_sensor);
+    sequence.stamps.push_back(from_seconds(time));
+  }
+
+  sequence.poses_file = "VIEWPOINT";
+  if (settings.label_rule_given) sequence.labels = std::make_shared<IntensityLabelSource>(entries);
+  FileScanSource::Traits traits;
+  traits.point_frame = PointFrame::kWorld;
+  traits.has_reflectance = false;
+  const auto source =
+      std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
+  sequence.motion = motion_along(sequence.stamps, poses);
+  return sequence;
+}
+
+}  // namespace
+
+Layout dynamicmap_layout() {
+  Layout layout;
+  layout.name = "dynamicmap";
+  layout.expected = "a DynamicMap sequence (pcd/*.pcd)";
+  layout.forms = {{"FOLDER", "a folder in DynamicMap layout (pcd/*.pcd)"}};
+  layout.scan_folder = "pcd";
+  layout.pose_place = PosePlace::kScanFile;
+  layout.points_in_world = layout.labels_in_intensity = true;
+  layout.class_names = class_names();
+  layout.expected_labels =
+      "--label-rule FILE, because labels are the intensity of the points in this layout: a JSON "
+      "file with those that move, such as {\"moving\": [1]}";
+  layout.recognise = [](Layout::Path path) {
+    return is_folder(path) && has_folder(std::filesystem::path(path) / "pcd");
+  };
+  layout.open = open_dynamicmap;
+  return layout;
+}
+
+}  // namespace raymoval
