@@ -3,7 +3,7 @@
 #   docker build -t raymoval .            (or podman build, or buildah bud)
 #   docker run --rm -u "$(id -u):$(id -g)" -v "$PWD:/data" raymoval clean my_scans -o static.pcd
 #
-# scripts/container.sh builds it and tries it. --build-arg DEBIAN=13-slim takes another Debian.
+# --build-arg DEBIAN=13-slim takes another Debian.
 ARG DEBIAN=12-slim
 
 FROM docker.io/library/debian:${DEBIAN} AS build

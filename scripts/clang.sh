@@ -3,13 +3,12 @@
 # Builds everything with clang, whose warnings are errors, and lets its static analyser look through
 # the rooms that read, decide and count. CI does not run it: it takes twenty minutes on two cores.
 #
-#   scripts/clang.sh                 both (Debian: clang clang-tidy)
+#   scripts/clang.sh                 build and analyse (Debian: clang clang-tidy)
 #   scripts/clang.sh build           the build only (build/clang)
 #   scripts/clang.sh analyse [FILE...]
 #                                    the analyser only; default: core, datasets, eval, and what runs
 #                                    methods in processes
-#
-# scripts/tidy.sh has the other checks of clang-tidy.
+#   scripts/clang.sh tidy [FILE...]  the checks of .clang-tidy; default: all source files of the rooms
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
@@ -45,10 +44,24 @@ analyse() {
     echo "clang.sh: ${#files[@]} files, nothing found."
 }
 
+tidy() {
+  needs clang-tidy
+  cmake -S . -B build/tidy -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRAYMOVAL_BUILD_TESTS=OFF \
+    -DRAYMOVAL_REPORT_3D=OFF >/dev/null || return 2
+  local files=("$@")
+  if [[ $# -eq 0 ]]; then
+    mapfile -t files < <(git ls-files 'core/*.cpp' 'datasets/*.cpp' 'methods/*.cpp' 'eval/*.cpp' \
+      'benchmark/*.cpp' ':!benchmark/kernels')
+  fi
+  printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet &&
+    echo "clang.sh: ${#files[@]} files, nothing found."
+}
+
 case ${1:-} in
   "") build; built=$?; analyse && exit "$built" ;;
   build) build ;;
   analyse) analyse "${@:2}" ;;
+  tidy) tidy "${@:2}" ;;
   -h | --help) sed -n '3,${/^#/!q;s/^# \{0,1\}//p}' scripts/clang.sh ;;
-  *) echo "clang.sh: '$1' is unknown; expected build, analyse or nothing." >&2; exit 2 ;;
+  *) echo "clang.sh: '$1' is unknown; expected build, analyse, tidy or nothing." >&2; exit 2 ;;
 esac

@@ -30,20 +30,20 @@ cmake --build --preset release --target raymoval_program
 raymoval=build/release/raymoval
 
 only=()
-within=()
+within=--take
 if [[ -n ${ONLY:-} ]]; then
   only=(--only "$ONLY")
-  within=(--within)
+  within=--within
 fi
 
 # take NAME SUITE: runs a suite, and takes its rates into results/NAME.csv.
 take() {
-  if [[ ${#within[@]} -gt 0 && ! -e results/$1.csv ]]; then
+  if [[ $within == --within && ! -e results/$1.csv ]]; then
     echo "field.sh: results/$1.csv is not there, so there is nothing to put these cells into; suite $2 is left out."
     return
   fi
   "$raymoval" run "$2" --out "out/$1" --jobs "$jobs" "${only[@]}"
-  python3 -B scripts/field_rows.py "${within[@]}" "out/$1/results.csv" "results/$1.csv"
+  python3 -B scripts/field_page.py "$within" "out/$1/results.csv" "results/$1.csv"
 }
 
 mkdir -p results/field results/delay $out

@@ -3,6 +3,8 @@
 
     field_page.py            # writes docs/field.md's tables and results/pictures/field.svg
     field_page.py --check    # writes nothing; fails if one of them is not what it would write
+    field_page.py --take RESULTS_CSV KEPT_CSV      # KEPT_CSV gets the rates of this run
+    field_page.py --within RESULTS_CSV KEPT_CSV    # only the cells of this run are replaced there
 
 The numbers stand in results/field/*.csv and results/delay/*.csv (the columns of a run's results.csv), and nowhere
 else: a table in the page is what stands between its lines "<!-- table NAME -->" and "<!-- end -->"."""
@@ -18,6 +20,9 @@ PAGE = HOUSE / "docs/field.md"
 CHART = HOUSE / "results/pictures/field.svg"
 RESULTS = HOUSE / "results/field"
 DELAYS = HOUSE / "results/delay"
+# Times of cells that ran side by side are no measure, and memory is not that page's matter.
+KEPT = ("sequence", "method", "variant", "protocol", "status", "PR", "RR", "F1", "SA", "DA", "AA", "HA", "precision",
+        "recall", "IoU", "name")
 CONTROLS = ("noop", "remove-all", "oracle")
 
 SCENES = ("town", "highway", "country", "suburb", "crossing", "excavator")
@@ -164,7 +169,43 @@ def page(rates, delays, text):
     return re.sub(r"<!-- table ([^>]*?) -->\n.*?<!-- end -->", made, text, flags=re.DOTALL)
 
 
+def read_run(path):
+    if not path.is_file():
+        sys.exit(f"field_page.py: there is no {path}; expected a run's results.csv, or rates that were kept before.")
+    with path.open(newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        missing = [column for column in KEPT if column not in (reader.fieldnames or ())]
+        if missing:
+            sys.exit(f"field_page.py: {path} has no column {', '.join(missing)}; expected a run's results.csv.")
+        return [{column: row[column] for column in KEPT} for row in reader]
+
+
+def cell(row):
+    return row["sequence"], row["name"], row["protocol"]
+
+
+def merged(old, new):
+    """Old rows with those of `new` in their places; cells that are only in `new` come last."""
+    fresh = {cell(row): row for row in new}
+    rows = [fresh.pop(cell(row), row) for row in old]
+    return rows + list(fresh.values())
+
+
+def take(results, kept, within):
+    """Takes the rates of a run's results.csv into a file of results/field/ or results/delay/."""
+    rows = read_run(results)
+    if within:
+        rows = merged(read_run(kept), rows)
+    with kept.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, KEPT, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def main():
+    if sys.argv[1:2] in (["--take"], ["--within"]) and len(sys.argv) == 4:
+        take(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]), sys.argv[1] == "--within")
+        return
     check = sys.argv[1:] == ["--check"]
     if sys.argv[1:] and not check:
         sys.exit(f"field_page.py: {' '.join(sys.argv[1:])} is unknown; expected nothing, or --check.")

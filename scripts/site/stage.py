@@ -19,9 +19,108 @@ HERE = pathlib.Path(__file__).resolve().parent
 HOUSE = HERE.parent.parent
 sys.path.insert(0, str(HERE))
 
-import navigation  # noqa: E402
-import python_api  # noqa: E402
 import reference  # noqa: E402
+from reference import COMMANDS, CPP_API, EXAMPLE, PARAMETERS, PYTHON_API  # noqa: E402
+
+SECTIONS = (
+    ("Start", (
+        ("Home", "README.md"),
+        ("In two minutes", "docs/getting-started.md"),
+        ("Other systems", "docs/platforms.md"),
+        ("Container", "docs/container.md"),
+    )),
+    ("Clean a map", (
+        ("Cleaning a map", "docs/clean.md"),
+        ("Your data", "docs/your-data.md"),
+        ("Poses", "docs/poses.md"),
+        ("Recipes", (("All recipes", "docs/recipes/README.md"), ("", "docs/recipes/*.md"))),
+    )),
+    ("Compare methods", (
+        ("Comparing methods", "docs/compare-methods.md"),
+        ("Protocols, with examples", "docs/protocols.md"),
+        ("Scores", "docs/scores.md"),
+        ("The field", "docs/field.md"),
+        ("Pictures and reports", "docs/pictures-and-reports.md"),
+        ("A report to look at", EXAMPLE),
+        ("Checks in CI", "docs/ci.md"),
+        ("Long runs", "docs/long-runs.md"),
+        ("Confidence", "docs/confidence.md"),
+    )),
+    ("Methods", (
+        ("", "methods/raymoval/README.md"),
+        ("", "methods/raymoval_plus/README.md"),
+        ("Experiments with raymoval_plus", "methods/raymoval_plus/EXPERIMENTS.md"),
+        ("", "methods/*/*.md"),
+    )),
+    ("Extend", (
+        ("Your method", "docs/your-method.md"),
+        ("Methods step by step", "methods/README.md"),
+        ("The C++ library", "examples/cpp_method/README.md"),
+        ("A data set", "docs/add-data-set.md"),
+        ("A protocol or a rate", "docs/add-protocol.md"),
+        ("Contributing", "CONTRIBUTING.md"),
+    )),
+    ("Reference", (
+        ("The program", "docs/program.md"),
+        ("Every command", COMMANDS),
+        ("Parameters", (("", PARAMETERS + "*.md"),)),
+        ("Files of a run", "docs/results.md"),
+        ("Python", "docs/python.md"),
+        ("Python, every name", PYTHON_API),
+        ("C++, every header", CPP_API),
+    )),
+    ("The house", (
+        ("Design", "docs/design.md"),
+        ("The source", "docs/source-code.md"),
+        ("How it is checked", "docs/how-it-is-checked.md"),
+        ("Security", "SECURITY.md"),
+        ("Simulated scenes", "datasets/simulation/README.md"),
+        ("Releases", "docs/release.md"),
+        ("What changed", "CHANGELOG.md"),
+    )),
+)
+IF_THERE = ("docs/platforms.md", "docs/container.md", "docs/confidence.md", "docs/release.md")
+# What cmake/install.cmake installs, and the page of the example.
+PAGES = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/*.md", "docs/recipes/*.md",
+         "methods/README.md", "methods/*/*.md", "datasets/*/README.md", "examples/cpp_method/README.md")
+
+
+class NavigationError(Exception):
+    """A page is in no section, or a section names a page that does not exist."""
+
+
+def pages_of(house):
+    """The paths of all pages of the repository, sorted."""
+    return sorted({path.relative_to(house).as_posix() for form in PAGES for path in house.glob(form)})
+
+
+def navigation(pages):
+    """The `nav` of mkdocs for `pages`, paths of pages that exist (those of the repository and those that were made).
+
+    Raises NavigationError for a page in no section, and for one that a section names and that does not exist."""
+    left = list(pages)
+
+    def entries(items):
+        made = []
+        for title, what in items:
+            if isinstance(what, tuple):
+                made.append({title: entries(what)})
+                continue
+            found = [page for page in left if page == what or ("*" in what and pathlib.PurePath(page).match(what))]
+            if not found and "*" not in what and what not in IF_THERE:
+                raise NavigationError(f"scripts/site/stage.py names {what}, which does not exist. "
+                                      "Take it out there, or put the page back.")
+            for page in found:
+                left.remove(page)
+                made.append({title: page} if title else page)
+        return made
+
+    nav = [{title: entries(items)} for title, items in SECTIONS]
+    if left:
+        raise NavigationError(f"{', '.join(left)}: in no section of the site. Name the page in SECTIONS of "
+                              "scripts/site/stage.py.")
+    return nav
+
 
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)|!\[[^\]]*\]\(([^)\s]+)\)")
 # A code block is told by its first word.
@@ -92,7 +191,7 @@ def stage_pages(pages, folder):
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)
         text = for_mkdocs(text)
-        parameters = f"{navigation.PARAMETERS}{pathlib.PurePath(page).parent.name}.md"
+        parameters = f"{PARAMETERS}{pathlib.PurePath(page).parent.name}.md"
         if pathlib.PurePath(page).match("methods/*/README.md"):
             text += f"\n[All parameters and variants](../../{parameters}), as the program describes them.\n"
         put(folder / page, home(text) if page == "README.md" else text)
@@ -103,8 +202,7 @@ def settings(nav, out):
     places = {"docs_dir": str(out / "pages"), "site_dir": str(out.parent / "site"),
               "nav": nav, "watch": [str(HOUSE / "docs")]}
     lines = [f"{key}: {json.dumps(value)}" for key, value in places.items()]
-    text = (HERE / "mkdocs.yml").read_text(encoding="utf-8").replace("custom_dir: theme", f"custom_dir: {json.dumps(str(HERE / 'theme'))}")
-    return text + "\n".join(lines) + "\n"
+    return (HERE / "mkdocs.yml").read_text(encoding="utf-8") + "\n".join(lines) + "\n"
 
 
 def main():
@@ -117,19 +215,18 @@ def main():
     out = given.out.resolve()
     pages = out / "pages"
     shutil.rmtree(pages, ignore_errors=True)
-    own = navigation.pages_of(HOUSE)
+    own = pages_of(HOUSE)
     stage_pages(own, pages)
-    for name in ("site.css", "favicon.svg"):
-        shutil.copyfile(HERE / name, pages / name)
+    shutil.copyfile(HERE / "site.css", pages / "site.css")
     made = reference.pages(given.program.resolve())
-    made[navigation.PYTHON_API] = python_api.page(HOUSE / "python/raymoval")
-    made[navigation.CPP_API] = reference.cpp_page(given.cpp, pages / "cpp")
-    made[navigation.EXAMPLE] = reference.example_page(given.report, pages / "reference/report.html")
+    made[PYTHON_API] = reference.python_page(HOUSE / "python/raymoval")
+    made[CPP_API] = reference.cpp_page(given.cpp, pages / "cpp")
+    made[EXAMPLE] = reference.example_page(given.report, pages / "reference/report.html")
     for page, text in made.items():
         put(pages / page, text)
     try:
-        nav = navigation.navigation([*own, *made])
-    except navigation.NavigationError as error:
+        nav = navigation([*own, *made])
+    except NavigationError as error:
         sys.exit(f"stage.py: {error}")
     put(out / "mkdocs.yml", settings(nav, out))
     print(f"stage.py: {len(own)} pages of the repository and {len(made)} made ones in {pages}")

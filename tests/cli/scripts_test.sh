@@ -16,7 +16,7 @@ tells() {
 }
 
 ln -s "$scripts" scripts
-for script in scripts/*.sh scripts/workflow/test_slurm.sh; do
+for script in scripts/*.sh scripts/workflow/check_method.sh; do
   tells 0 "$script" "$script" --help
   holds "$script --help is its head only" test -z "$(grep -e '^set ' -e '^#' <("$script" --help))"
   tells 2 "--nonsense" "$script" --nonsense

@@ -1,5 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Damages whole sequences and gives them to the program, see scripts/fuzz_sequences.sh."""
+"""Damages whole sequences at random (bytes, sizes, names, numbers in texts) in each layout, and gives them to
+`raymoval inspect`, `run`, `clean` and `score`, with limits on time and memory.
+
+    sequences.py PROGRAM COUNT SEED FOLDER
+
+The outcome of each command has to be exit code 0 with finite numbers, or 1 or 2 with a message; and data on which a
+cell fails has to give a finding of `inspect`. The same seed gives the same sequences. What fails is kept in
+FOLDER/SEED-NUMBER, and then the exit code is 1. SANITIZERS=1 is for a program with the sanitizers."""
 import json
 import math
 import os
@@ -334,7 +341,7 @@ def main():
             shutil.copytree(place / "bases" / base, work / base)
             for outcome in try_sequence(random.Random(seed), program, work, name)[0]:
                 if outcome.fault or outcome.code == 2 and outcome.command[0] != "score":
-                    sys.exit(f"fuzz_sequences.sh: a good sequence fails ({base}): {outcome.command} {outcome.code} "
+                    sys.exit(f"sequences.py: a good sequence fails ({base}): {outcome.command} {outcome.code} "
                              f"{outcome.fault} {outcome.err}")
             shutil.rmtree(work)
         for number in range(count):

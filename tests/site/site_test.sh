@@ -15,16 +15,16 @@ stage=(python3 "$source_folder/scripts/site/stage.py" --program "$raymoval" --ou
 holds "every page is in a section" "${stage[@]}"
 # A page that nobody put into a section, and a section whose page is gone.
 in_sections() { (cd "$source_folder/scripts/site" && python3 -c "
-import navigation, pathlib, sys
-pages = navigation.pages_of(pathlib.Path('$source_folder')) + list(navigation.GENERATED)
+import pathlib, reference, stage
+pages = stage.pages_of(pathlib.Path('$source_folder')) + list(reference.GENERATED)
 $1
 try:
-    navigation.navigation(pages)
-except navigation.NavigationError as error:
+    stage.navigation(pages)
+except stage.NavigationError as error:
     print(error)") ; }
 holds "a page in no section is named" grep -q '^docs/new.md: in no section' <(in_sections "pages.append('docs/new.md')")
 holds "a section without its page is named" grep -q 'names docs/clean.md, which' <(in_sections "pages.remove('docs/clean.md')")
-holds "a page that may be missing is left out" test -z "$(in_sections "pages = [p for p in pages if p not in navigation.IF_THERE]")"
+holds "a page that may be missing is left out" test -z "$(in_sections "pages = [p for p in pages if p not in stage.IF_THERE]")"
 
 if ! mkdocs build --help 2>/dev/null | grep -q material; then
   finish site || exit 1
@@ -50,7 +50,7 @@ while read -r method; do
   holds "there is a page with the parameters of $method: $(<missing.txt)" test -f "$page" -a ! -s missing.txt
   holds "there is a page of $method" test -f "$site/methods/$method/index.html"
 done <methods.txt
-holds "the search works from disk" grep -q '^window.__search = ' "$site/search/offline.js"
+holds "the search has an index" grep -q minimum_horizontal_range "$site/search/search_index.json"
 for name in $(python3 -c "
 import ast
 tree = ast.parse(open('$source_folder/python/raymoval/__init__.py').read())
