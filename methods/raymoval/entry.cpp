@@ -15,6 +15,10 @@ std::vector<MethodVariant> variants() {
        "As offline, with every value as printed in Table 1.",
        false,
        {{"erase_tau1", 0.35}, {"erase_percentile", 0.9}}},
+      {"table1-online",
+       "As online, with every value as printed in Table 1.",
+       true,
+       {{"offline", false}, {"erase_tau1", 0.35}, {"erase_percentile", 0.9}}},
   };
 }
 

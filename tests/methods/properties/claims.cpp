@@ -24,6 +24,7 @@ constexpr Line kLines[] = {
     {"raymoval:offline", "= = ? = ? = ? ? ?"},
     {"raymoval:online", "= = ? = ? = = ? ?"},
     {"raymoval:table1", "= = ? = ? = ? ? ?"},
+    {"raymoval:table1-online", "= = ? = ? = = ? ?"},
 
     // Runs of scans, gaps of tracks, kept scans and the ground's period count scans, empty ones
     // too. Means of voxels and of objects are sums, which round.

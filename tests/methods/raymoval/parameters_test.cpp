@@ -73,6 +73,7 @@ TEST_CASE("raymoval's variants change what their names say", "[raymoval]") {
       {"offline", "offline:"},
       {"online", "online: offline=false"},
       {"table1", "offline: erase_tau1=0.35 erase_percentile=0.9"},
+      {"table1-online", "online: offline=false erase_tau1=0.35 erase_percentile=0.9"},
   };
   const MethodEntry& entry = raymoval_entry_of_registry();
   std::vector<std::pair<std::string, std::string>> found;
