@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "methods/common/scan_grid.h"
+#include "methods/common/sparse_blocks.h"
 #include "methods/dufomap/beams.h"
 #include "tests/methods/grid_cells.h"
 #include "tests/methods/held_scans.h"
@@ -96,6 +97,21 @@ TEST_CASE("a wish to stop is heard within the beams of a scan", "[dufomap]") {
   RunContext context;
   context.cancel = &cancel;
   CHECK_THROWS_AS(cast_beams(scan, ends, parameters, grid, context), Cancelled);
+}
+
+TEST_CASE("blocks anywhere are made once, found and removed", "[dufomap]") {
+  SparseBlocks<int> blocks;
+  CHECK(blocks.find({0, 0, 0}) == nullptr);
+  for (int i = -3; i <= 3; ++i) CHECK(blocks.find_or_make({i, -i, 2 * i}, i) == i);
+  CHECK(blocks.find_or_make({1, -1, 2}, 77) == 1);
+  BlockFinder finder(blocks);
+  for (int i = -3; i <= 3; ++i) CHECK(*finder.find({i, -i, 2 * i}) == i);
+  CHECK(finder.find({0, 0, 1}) == nullptr);
+  blocks.erase_if([](int value) { return value < 0; });
+  int sum = 0;
+  blocks.for_each([&](int value) { sum += value; });
+  CHECK(sum == 6);
+  CHECK(blocks.find({-1, 1, -2}) == nullptr);
 }
 
 }  // namespace raymoval::dufomap_test
