@@ -131,9 +131,7 @@ bool run(const std::vector<std::string>& words) {
 int main(int count, char** words) {
   try {
     if (run({words + 1, words + count})) return 0;
-    std::fprintf(
-        stderr,
-        "expected: dump FILE, convert IN OUT, like IN OUT or sequence PATH\n");
+    std::fprintf(stderr, "expected: dump FILE, convert IN OUT, like IN OUT or sequence PATH\n");
     return 2;
   } catch (const raymoval::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
