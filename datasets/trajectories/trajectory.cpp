@@ -55,16 +55,6 @@ std::optional<Pose> Trajectory::at(Nanoseconds stamp, Nanoseconds max_gap) const
   return interpolated(before.T_world_body, after->T_world_body, share);
 }
 
-std::optional<Nanoseconds> Trajectory::gap_at(Nanoseconds stamp) const {
-  const auto after =
-      std::lower_bound(poses_.begin(), poses_.end(), stamp,
-                       [](const StampedPose& pose, Nanoseconds time) { return pose.stamp < time; });
-  if (after == poses_.end()) return std::nullopt;
-  if (after->stamp == stamp) return 0;
-  if (after == poses_.begin()) return std::nullopt;
-  return after->stamp - (after - 1)->stamp;
-}
-
 Pose part_of(const Pose& motion, double part) {
   const Eigen::AngleAxisd turn(motion.linear());
   Pose result = Pose::Identity();

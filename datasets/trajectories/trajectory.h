@@ -54,8 +54,6 @@ class Trajectory {
   /// extrapolated), and nothing between two poses that are further apart than `max_gap`, unless one
   /// of them has just this stamp.
   [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp, Nanoseconds max_gap) const;
-  /// The distance in time of the two poses around `stamp`. Nothing outside of the trajectory.
-  [[nodiscard]] std::optional<Nanoseconds> gap_at(Nanoseconds stamp) const;
 
  private:
   std::vector<StampedPose> poses_;

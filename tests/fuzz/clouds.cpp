@@ -6,9 +6,9 @@
 #include "core/scan/label_rule.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
+#include "tests/datasets/written_cloud.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
-#include "tests/datasets/written_cloud.h"
 
 namespace raymoval::fuzz {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Clouds with all their fields, in every format, and layouts of points.
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/format/gzip.h"
 #include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/format/gzip.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 

@@ -330,9 +330,10 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
       "--labels", "DIR", flags.labels,
       "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "
       "out)");
-  options.add("--scans", "DIR", flags.scans,
-              "Also write the scans without the removed points, one by one in their own format, "
-              "into a folder that opens as the sequence does; of a recording, another recording");
+  options.add(
+      "--scans", "DIR", flags.scans,
+      "Also write the scans without the removed points, one by one, into a folder that opens "
+      "as the sequence does: in their own format, those of a recording as .pcd");
   options.add("--tiles", "METRES", flags.tiles,
               "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
               "folders");

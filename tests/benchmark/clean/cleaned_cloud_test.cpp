@@ -48,7 +48,8 @@ TEST_CASE("A cloud of NaNs wins nothing: it scores as the empty cloud and says s
   const float infinite = std::numeric_limits<float>::infinity();
   const test::TemporaryFolder folder;
   for (const char* name : {"nan.pcd", "nan.ply", "nan.bin"}) {
-    test::write_cloud(folder.path() / name, {{nan, nan, nan}, {1.0f, nan, 0.0f}, {0.0f, 0.0f, infinite}});
+    test::write_cloud(folder.path() / name,
+                      {{nan, nan, nan}, {1.0f, nan, 0.0f}, {0.0f, 0.0f, infinite}});
     const CleanedCloud cloud = read_cleaned_cloud(folder.path() / name);
     CHECK(cloud.stored == 3);
     CHECK(cloud.non_finite == 3);
