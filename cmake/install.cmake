@@ -19,18 +19,10 @@ install(DIRECTORY results/published results/schema DESTINATION ${CMAKE_INSTALL_D
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} USE_SOURCE_PERMISSIONS
         PATTERN "__pycache__" EXCLUDE)
 if(NOT RAYMOVAL_SANITIZE)
-  set(texts ${PROJECT_BINARY_DIR}/share/shell)
-  install(FILES ${texts}/raymoval.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${texts}/raymoval
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  install(FILES ${texts}/raymoval.fish
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-  # Debian's zsh looks into the first below /usr, and into the second below /usr/local, where others
-  # look always.
-  foreach(folder vendor-completions site-functions)
-    install(FILES ${texts}/_raymoval DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder})
-  endforeach()
+  install(FILES ${PROJECT_BINARY_DIR}/share/shell/raymoval.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
+install(FILES benchmark/cli/shell/raymoval.bash RENAME raymoval
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 # Where pages and pictures stand in the repository, so that their links lead there.
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -58,7 +50,7 @@ if(RAYMOVAL_PYTHON)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-raymoval COMPONENT python)
 endif()
 install(DIRECTORY scripts/workflow DESTINATION ${CMAKE_INSTALL_DATADIR}/raymoval
-        USE_SOURCE_PERMISSIONS PATTERN "test_slurm.sh" EXCLUDE)
+        USE_SOURCE_PERMISSIONS)
 install(EXPORT raymovalTargets NAMESPACE raymoval:: DESTINATION ${config_dir} COMPONENT dev)
 configure_package_config_file(cmake/raymovalConfig.cmake.in raymovalConfig.cmake
                               INSTALL_DESTINATION ${config_dir})

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "core/error.h"
-
 namespace raymoval {
 namespace {
 
@@ -68,45 +66,19 @@ Intervals bootstrap(const std::vector<Counts>& counts_by_scan,
   const std::vector<Counts> last = block_sums(counts_by_scan, rest);
   // Only the engine's own numbers are used: the library's distributions differ between platforms.
   std::mt19937_64 random(options.seed);
-  result.draws.resize(rates.size());
+  std::vector<std::vector<double>> values(rates.size());
   for (int replicate = 0; replicate < options.replicates; ++replicate) {
     Counts sums(counts_by_scan.front().size(), 0);
     for (std::size_t i = 0; i < whole; ++i) add(blocks[random() % scans], sums);
     if (rest > 0) add(last[random() % scans], sums);
     const std::vector<Rate> drawn = rates_of(sums);
-    for (std::size_t i = 0; i < rates.size(); ++i) result.draws[i].push_back(drawn[i].value);
-  }
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    std::vector<double> values;
-    for (const std::optional<double>& value : result.draws[i]) {
-      if (value) values.push_back(*value);
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      if (drawn[i].value) values[i].push_back(*drawn[i].value);
     }
-    result.rates.push_back(interval_of(rates[i].name, values, options));
   }
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    result.rates.push_back(interval_of(rates[i].name, values[i], options));
   return result;
-}
-
-Interval paired_difference(const Intervals& first, const Intervals& second,
-                           const std::string& name) {
-  const BootstrapOptions &a = first.options, &b = second.options;
-  if (first.scans != second.scans || a.seed != b.seed || a.replicates != b.replicates ||
-      a.level != b.level) {
-    throw InternalError("intervals of " + name + " were not drawn alike, so they are not pairs");
-  }
-  const auto place = [&](const Intervals& intervals) {
-    std::size_t i = 0;
-    while (i < intervals.draws.size() && intervals.rates[i].name != name) ++i;
-    return i;
-  };
-  const std::size_t i = place(first), k = place(second);
-  if (i >= first.draws.size() || k >= second.draws.size())
-    return {name, {}, {}, "there are no draws of it"};
-  std::vector<double> differences;
-  for (std::size_t draw = 0; draw < first.draws[i].size(); ++draw) {
-    const std::optional<double>&x = first.draws[i][draw], &y = second.draws[k][draw];
-    if (x && y) differences.push_back(*x - *y);
-  }
-  return interval_of(name, differences, a);
 }
 
 }  // namespace raymoval

@@ -32,8 +32,6 @@ struct Intervals {
   std::size_t scans = 0;
   std::size_t block_scans = 0;
   BootstrapOptions options;
-  /// The values of each rate in the order of the replicates. They are not stored with results.
-  std::vector<std::vector<std::optional<double>>> draws = {};
 };
 
 /// The number of scans in a block: the square root of the number of all scans, rounded up. This is
@@ -57,15 +55,5 @@ Intervals bootstrap(
     const std::vector<std::vector<std::int64_t>>& counts_by_scan,
     const std::function<std::vector<Rate>(const std::vector<std::int64_t>&)>& rates_of,
     const BootstrapOptions& options = {});
-
-/// By how much the rate `name` of one answer would exceed that of another if other scans of the
-/// same drive had been taken: the middle `level` of the differences between replicates of the same
-/// number, which consist of the same scans. If 0 lies inside, the data does not tell which of the
-/// two answers has the higher rate.
-/// @param first, second of two answers on the same scans by the same protocol
-/// @return an interval without values if the rate is undefined in most replicates, or was not drawn
-/// @throws InternalError if they were drawn from other numbers of scans, or in another way
-Interval paired_difference(const Intervals& first, const Intervals& second,
-                           const std::string& name);
 
 }  // namespace raymoval

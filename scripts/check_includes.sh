@@ -29,13 +29,13 @@ methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects online .
 eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|confidence|published
 eval/erasor            options|frame maps matching rates scorer .
-benchmark              harness suite result process tables run history|submission picture report clean cli cli/shell cli/commands
+benchmark              harness suite result process tables run picture report clean cli cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps
 benchmark/clean        rows outputs .
 benchmark/result       . removals|checks|speed
 benchmark/run          folder .
-benchmark/tables       text comparison .
+benchmark/tables       text .
 python                 module
 "
 

@@ -3,10 +3,13 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "benchmark/cli/command_parser.h"
+#include "benchmark/suite/amounts.h"
+#include "benchmark/suite/reading_options.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "datasets/sequence.h"
@@ -34,11 +37,8 @@ Command add_clean_command(CommandParser& program);
 Command add_simulate_command(CommandParser& program);
 Command add_inspect_command(CommandParser& program);
 Command add_report_command(CommandParser& program);
-Command add_history_command(CommandParser& program);
-Command add_verify_command(CommandParser& program);
-/// `program` has to live as long as the next two commands.
+/// `program` has to live as long as this command.
 Command add_help_command(CommandParser& program);
-Command add_completion_command(CommandParser& program);
 
 /// What the program was started with, without its own name.
 const std::vector<std::string>& program_arguments();
@@ -48,20 +48,21 @@ const MethodRegistry& program_methods();
 
 /// Options that say how sequences are read, as texts of the command line.
 struct SequenceFlags {
-  std::string frames, poses, label_rule, range, sensor, up, drop_ego, point_layout, name;
-  std::string pose_format, T_sensor, time_offset, max_gap, points, point_time_unit;
-  bool deskew = false;
-  std::string topic, pose_topic;
+  std::map<std::string, std::string> texts;  ///< By the option's name, such as "pose-format".
+  std::map<std::string, bool> flags;
 
   void add_to(CommandOptions& options);
-  /// Those about poses, frames and the motion within scans; `add_to` adds them too.
-  void add_poses_to(CommandOptions& options);
   /// The sequence that a command is about, which may be given with --sequence or without it.
   static void add_place_to(CommandOptions& options, std::string& place);
   /// @throws UsageError for an ill-formed value
   [[nodiscard]] SequenceOptions options() const;
   /// The first of these options that was given, such as "--frames"; empty if none was.
   [[nodiscard]] std::string first_given() const;
+  /// The value of an option; empty if it was not given.
+  [[nodiscard]] const std::string& text(const std::string& name) const { return texts.at(name); }
+
+ private:
+  [[nodiscard]] bool has(const ReadingOption& option) const;
 };
 
 /// The number of `--threads N`, or 0 if it was not given.
@@ -85,10 +86,6 @@ struct WorkFlags {
 /// Says how a sequence was opened, unless progress is quiet, and always warns of scans that are
 /// lost.
 void tell_opening(const Sequence& sequence, Progress& progress);
-
-/// @param option for the message
-/// @throws UsageError unless `text` is a decimal number greater than 0
-double parse_positive(const std::string& option, const std::string& text);
 
 /// Set to true by the first Ctrl-C, SIGTERM or SIGHUP; a second one ends the program at once. The
 /// exit code is then 128 + the number of the signal, unless all was done already.

@@ -109,34 +109,6 @@ std::string chosen_command(const CLI::App& program) {
                    " See `raymoval --help`.");
 }
 
-OptionText option_text(const CLI::Option& option) {
-  OptionText text;
-  if (!option.get_lnames().empty()) text.long_name = "--" + option.get_lnames().front();
-  if (!option.get_snames().empty()) text.short_name = "-" + option.get_snames().front();
-  text.sentence = option.get_description();
-  text.repeats = option.get_items_expected_max() > 1;
-  if (option.get_expected_max() > 0) text.value = option.get_type_name();
-  return text;
-}
-
-CommandText command_text(const CLI::App& app) {
-  CommandText text{.name = app.get_name(),
-                   .sentence = app.get_description(),
-                   .options = {},
-                   .words = {},
-                   .footer = app.get_footer()};
-  for (const CLI::Option* option : app.get_options()) {
-    OptionText told = option_text(*option);
-    const bool named = !told.long_name.empty() || !told.short_name.empty();
-    if (named) text.options.push_back(told);
-    if (!option->get_positional()) continue;  // Some are both: `inspect PATH`, `--sequence PATH`.
-    told.long_name.clear();
-    told.short_name.clear();
-    text.words.push_back(told);
-  }
-  return text;
-}
-
 }  // namespace
 
 void CommandOptions::add(const std::string& names, const std::string& type, std::string& value,
@@ -227,18 +199,6 @@ std::string CommandParser::help_page(const std::string& command) const {
     names.push_back(app->get_name());
   }
   throw UsageError("'" + command + "' is no command." + suggestion(command, names));
-}
-
-CommandText CommandParser::program_text() const {
-  return command_text(parser_->app);
-}
-
-std::vector<CommandText> CommandParser::command_texts() const {
-  std::vector<CommandText> texts;
-  for (const CLI::App* app : all_commands(parser_->app)) {
-    if (!app->get_group().empty()) texts.push_back(command_text(*app));
-  }
-  return texts;
 }
 
 }  // namespace raymoval

@@ -7,24 +7,6 @@
 
 namespace raymoval {
 
-/// An option of a command, or a word that stands alone, as --help shows it.
-struct OptionText {
-  std::string long_name;   ///< "--method"; empty for a word that stands alone.
-  std::string short_name;  ///< "-o", or empty.
-  std::string sentence;    ///< As --help has it.
-  std::string value;       ///< "NAME", as --help has it; empty if the option takes no value.
-  std::string value_set;   ///< Name of a `ValueSet`, see `command_tree`.
-  bool repeats = false;    ///< It may be given more than once.
-};
-
-struct CommandText {
-  std::string name;
-  std::string sentence;
-  std::vector<OptionText> options;
-  std::vector<OptionText> words;
-  std::string footer;  ///< Sentences and examples as --help has them.
-};
-
 /// Declares the options of one command. It belongs to the parser that made it.
 class CommandOptions {
  public:
@@ -50,7 +32,7 @@ class CommandOptions {
   /// Sets what --help says below the options.
   void set_footer(const std::string& text);
 
-  /// Leaves the command out of --help, the manual page and the completion of shells.
+  /// Leaves the command out of --help.
   void hide();
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -92,10 +74,6 @@ class CommandParser {
   /// The text of --help: of a command, or of the program if `command` is empty.
   /// @throws UsageError if no command that is shown has this name
   [[nodiscard]] std::string help_page(const std::string& command) const;
-
-  [[nodiscard]] CommandText program_text() const;
-  /// The commands that are shown, in the order in which they were added.
-  [[nodiscard]] std::vector<CommandText> command_texts() const;
 
  private:
   struct Parser;

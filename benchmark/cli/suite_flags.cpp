@@ -76,7 +76,7 @@ Suite suite_from_flags(const SuiteFlags& flags, const MethodRegistry& registry) 
         "nothing to run: name a method with --method NAME[:variant], or all of them with "
         "--method all (see `raymoval list methods`).");
   }
-  if (flags.sequences.size() > 1 && !flags.sequence.name.empty()) {
+  if (flags.sequences.size() > 1 && !flags.sequence.text("name").empty()) {
     throw UsageError(fmt::format("--name names one sequence, but there are {}; use a suite file.",
                                  flags.sequences.size()));
   }

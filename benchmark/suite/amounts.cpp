@@ -72,6 +72,13 @@ double parse_seconds(const std::string& option, const std::string& text) {
                    "90s, 5min or 2h.");
 }
 
+double parse_positive(const std::string& option, const std::string& text) {
+  const auto value = parse_number<double>(text);
+  if (value && *value > 0.0 && *value < 1e6) return *value;
+  throw UsageError(option + " " + text +
+                   ": expected a number greater than 0 and less than 1,000,000, without a unit.");
+}
+
 RangeLimits parse_range(const std::string& option, const std::string& text) {
   const std::string form = ": expected MIN:MAX in metres, such as 2.7:50";
   const auto parts = split(text, ':');

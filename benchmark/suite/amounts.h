@@ -17,6 +17,9 @@ double parse_memory_mib(const std::string& option, const std::string& text);
 /// @throws UsageError that says what can be written
 double parse_seconds(const std::string& option, const std::string& text);
 
+/// Reads a decimal number greater than 0. @param option for the message. @throws UsageError
+double parse_positive(const std::string& option, const std::string& text);
+
 /// Reads a range "MIN:MAX" in metres; either number may be left out.
 /// @throws UsageError that says what can be written
 RangeLimits parse_range(const std::string& option, const std::string& text);

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "benchmark/suite/reading_options.h"
 #include "core/files/fields.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -80,16 +82,13 @@ std::string sequence_path(const std::string& path, Places& places, const std::st
   return located(path, places);
 }
 
-/// What is said of poses, frames and the motion within scans.
-void read_pose_options(const Fields& object, SequenceOptions& options) {
-  options.pose_format = text_of(object, "pose_format");
-  options.T_sensor = text_of(object, "T_sensor");
-  options.point_time_unit = text_of(object, "point_time_unit");
-  if (object.has("time_offset_s")) options.time_offset_s = object.number("time_offset_s", 0.0);
-  if (object.has("max_gap_s")) options.max_gap_s = object.positive("max_gap_s", 1.0);
-  if (object.has("deskew")) options.deskew = object.flag("deskew", false);
-  if (const auto points = text_of(object, "points")) {
-    options.points = parse_point_frame(object.place("points"), *points);
+/// Takes in the text of a reading option by its key in a file, such as "pose_format" or
+/// "max_gap_s".
+void set_option(const std::string& key, const std::string& text, SequenceOptions& options) {
+  std::string name = key.ends_with("_s") ? key.substr(0, key.size() - 2) : key;
+  std::replace(name.begin(), name.end(), '_', '-');
+  for (const ReadingOption& option : reading_options()) {
+    if (option.name == name) option.set(options, key, text);
   }
 }
 
@@ -101,21 +100,22 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
                       "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
-  options.name = text_of(object, "name");
-  options.poses = text_of(object, "poses");
-  options.topic = text_of(object, "topic");
-  options.pose_topic = text_of(object, "pose_topic");
-  options.sensor = text_of(object, "sensor");
-  options.up = text_of(object, "up");
-  options.point_layout = text_of(object, "point_layout");
-  if (const auto frames = text_of(object, "frames")) options.frames = parse_frame_range(*frames);
+  for (const char* key : {"name", "frames", "poses", "topic", "pose_topic", "sensor", "up",
+                          "point_layout", "pose_format", "T_sensor", "point_time_unit"}) {
+    if (object.has(key)) set_option(key, object.text(key), options);
+  }
   if (const auto rule = text_of(object, "label_rule")) {
     options.label_rule = is_rule_file(*rule) ? located(*rule, places) : *rule;
   }
   if (object.has("drop_ego")) {
     options.drop_ego = ego_region_value(object.member("drop_ego"), where + ".drop_ego");
   }
-  read_pose_options(object, options);
+  if (object.has("time_offset_s")) options.time_offset_s = object.number("time_offset_s", 0.0);
+  if (object.has("max_gap_s")) options.max_gap_s = object.positive("max_gap_s", 1.0);
+  if (object.has("deskew")) options.deskew = object.flag("deskew", false);
+  if (const auto points = text_of(object, "points")) {
+    options.points = parse_point_frame(object.place("points"), *points);
+  }
   if (object.has("range_m")) {
     options.range_m = range_of(Fields(object.member("range_m"), where + ".range_m", "min max"));
   }
@@ -333,23 +333,11 @@ SequenceRequest place_from(const ordered_json& json) {
   SequenceOptions& options = place.options;
   for (const auto& [key, value] : json.items()) {
     const auto text = value.get<std::string>();
-    if (key == "frames") options.frames = parse_frame_range(text);
-    if (key == "poses") options.poses = text;
-    if (key == "topic") options.topic = text;
-    if (key == "pose_topic") options.pose_topic = text;
-    if (key == "label_rule") options.label_rule = text;
-    if (key == "sensor") options.sensor = text;
-    if (key == "up") options.up = text;
-    if (key == "point_layout") options.point_layout = text;
-    if (key == "drop_ego") options.drop_ego = parse_ego_region(text);
-    if (key == "name") options.name = text;
-    if (key == "pose_format") options.pose_format = text;
-    if (key == "T_sensor") options.T_sensor = text;
-    if (key == "point_time_unit") options.point_time_unit = text;
-    if (key == "time_offset_s") options.time_offset_s = parse_number<double>(text).value();
-    if (key == "max_gap_s") options.max_gap_s = parse_number<double>(text).value();
-    if (key == "points") options.points = parse_point_frame(key, text);
-    if (key == "deskew") options.deskew = text == "true";
+    if (key == "deskew") {
+      options.deskew = text == "true";
+      continue;
+    }
+    set_option(key, text, options);
     if (!key.starts_with("range_")) continue;
     if (!options.range_m) options.range_m.emplace();
     const double metres = parse_number<double>(text).value();

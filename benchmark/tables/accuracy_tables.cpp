@@ -15,19 +15,11 @@ std::vector<MethodRates> run_methods(const RunResults& results, const std::strin
   std::vector<MethodRates> methods;
   for (const std::string& cell : results.cells) {
     if (results.is_swept(cell)) continue;  // Shown in a table of its own.
-    MethodRates method{cell};
-    bool wanted = false;
-    for (const std::string& sequence : results.sequences) {
-      const ResultRow* row = results.find(sequence, cell, protocol);
-      const bool scored = row != nullptr && row->status == "ok";
-      method.by_sequence.push_back(scored ? &row->rates : nullptr);
-      method.status.push_back(row != nullptr ? row->status : "");
-      const bool timed = scored && row->seconds_per_scan;
-      method.ms.push_back(timed ? std::optional(1000.0 * *row->seconds_per_scan) : std::nullopt);
-      if (row != nullptr && row->control == controls) wanted = true;
-    }
-    method.mean_ms = results.ms_per_scan(cell);
-    if (wanted) methods.push_back(std::move(method));
+    const bool wanted =
+        std::any_of(results.rows.begin(), results.rows.end(), [&](const ResultRow& row) {
+          return row.cell == cell && row.protocol == protocol && row.control == controls;
+        });
+    if (wanted) methods.push_back(method_rates(results, cell, protocol));
   }
   return methods;
 }

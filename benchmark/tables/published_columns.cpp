@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "benchmark/suite/shipped_data.h"
+#include "benchmark/suite/shipped_suites.h"
 #include "core/error.h"
 #include "eval/protocol_registry.h"
 #include "eval/published/published.h"

@@ -241,6 +241,21 @@ SegmentValues MethodRates::values(const std::string& name) const {
   return list;
 }
 
+MethodRates method_rates(const RunResults& results, const std::string& cell,
+                         const std::string& protocol) {
+  MethodRates method{cell};
+  for (const std::string& sequence : results.sequences) {
+    const ResultRow* row = results.find(sequence, cell, protocol);
+    const bool scored = row != nullptr && row->status == "ok";
+    method.by_sequence.push_back(scored ? &row->rates : nullptr);
+    method.status.push_back(row != nullptr ? row->status : "");
+    const bool timed = scored && row->seconds_per_scan;
+    method.ms.push_back(timed ? std::optional(1000.0 * *row->seconds_per_scan) : std::nullopt);
+  }
+  method.mean_ms = results.ms_per_scan(cell);
+  return method;
+}
+
 TableRow sequence_row(const RateGrid& grid, const MethodRates& method, std::size_t sequence,
                       const TableOptions& options) {
   TableRow row{method.heading, {}, false, grid.sequences[sequence]};

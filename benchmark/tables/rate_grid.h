@@ -26,6 +26,10 @@ struct MethodRates {
   [[nodiscard]] SegmentValues values(const std::string& name) const;
 };
 
+/// The rates of a cell's method by a protocol on each sequence of the run, and its times.
+MethodRates method_rates(const RunResults& results, const std::string& cell,
+                         const std::string& protocol);
+
 /// Sequences x methods x rates. A table is made of it by one layout or the other.
 struct RateGrid {
   std::string title;

@@ -33,17 +33,10 @@ std::vector<Sweep> sweeps_of(const RunResults& results) {
 
 MethodRates point_rates(const RunResults& results, const SweptCell& point,
                         const std::string& protocol) {
-  MethodRates rates{point.point()};
-  SegmentValues seconds;
-  for (const std::string& sequence : results.sequences) {
-    const ResultRow* row = results.find(sequence, point.cell, protocol);
-    rates.by_sequence.push_back(row != nullptr ? &row->rates : nullptr);
-    rates.status.push_back(row != nullptr ? row->status : "not run");
-    seconds.push_back(row != nullptr ? row->seconds_per_scan : std::nullopt);
-    rates.ms.push_back(seconds.back() ? std::optional(1000.0 * *seconds.back()) : std::nullopt);
-  }
-  const Mean mean = mean_of(seconds);
-  if (mean.value) rates.mean_ms = 1000.0 * *mean.value;
+  MethodRates rates = method_rates(results, point.cell, protocol);
+  rates.heading = point.point();
+  for (std::string& status : rates.status) status = status.empty() ? "not run" : status;
+  rates.mean_ms = mean_of(rates.ms).value;
   return rates;
 }
 

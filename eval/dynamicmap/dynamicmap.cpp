@@ -47,16 +47,17 @@ ProtocolResult result_of(const std::vector<ScanPresence>& scans) {
 
 class DynamicMapScoring : public Scoring {
  public:
-  explicit DynamicMapScoring(const PresenceCount::Input& input) : presence_(input) {}
+  explicit DynamicMapScoring(const PresenceCount::Input& input)
+      : presence_(PresenceCount::start(input, {})) {}
 
-  [[nodiscard]] bool waits_for_others() const override { return presence_.waits_for_others(); }
-  bool begin_pass(std::size_t slots) override { return presence_.begin_pass(slots); }
-  void read(const CheckedScan& scan, std::size_t slot) override { presence_.read(scan, slot); }
-  void take(std::size_t slot) override { presence_.take(slot); }
-  ProtocolResult result() override { return result_of(presence_.finish()); }
+  [[nodiscard]] bool waits_for_others() const override { return presence_->waits_for_others(); }
+  bool begin_pass(std::size_t slots) override { return presence_->begin_pass(slots); }
+  void read(const CheckedScan& scan, std::size_t slot) override { presence_->read(scan, slot); }
+  void take(std::size_t slot) override { presence_->take(slot); }
+  ProtocolResult result() override { return result_of(presence_->finish()); }
 
  private:
-  PresenceCount presence_;
+  std::unique_ptr<PresenceCount> presence_;
 };
 
 class DynamicMapScorer : public Scorer {

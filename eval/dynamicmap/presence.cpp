@@ -93,16 +93,19 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid) {
   return result;
 }
 
-class PresenceCount::State {
+namespace {
+
+/// The passes that `PresenceCount` describes.
+class MarkedPresence : public PresenceCount {
  public:
-  State(const Input& input, const Room& room)
+  MarkedPresence(const Input& input, const Room& room)
       : input_(input),
         scans_(input.truth.input().scans->size()),
         marks_(blocks(), room_for(room.marks, kMarksPerBlock)),
         undecided_({input.options.distance, input.grid, blocks(), marks_.flagged()},
                    room_for(room.points, kPointsPerBlock)) {}
 
-  bool begin_pass(std::size_t slots) {
+  bool begin_pass(std::size_t slots) override {
     slots_.resize(slots);
     switch (step_) {
       case kStart:
@@ -124,15 +127,16 @@ class PresenceCount::State {
     }
   }
 
-  [[nodiscard]] bool waits_for_others() const {
+  /// After the first pass, if the map is large.
+  [[nodiscard]] bool waits_for_others() const override {
     return step_ != kStart && needs_marks() && blocks().size() >= kManyBlocks;
   }
 
-  [[nodiscard]] std::size_t bytes() const {
+  [[nodiscard]] std::size_t bytes() const override {
     return scans_.capacity() * sizeof(ScanPresence) + marks_.bytes() + undecided_.bytes();
   }
 
-  void read(const CheckedScan& scan, std::size_t slot) {
+  void read(const CheckedScan& scan, std::size_t slot) override {
     Part& part = slots_[slot];
     part.scan = static_cast<std::uint32_t>(scan.scan.index);
     if (step_ == kCount) {
@@ -144,7 +148,7 @@ class PresenceCount::State {
     }
   }
 
-  void take(std::size_t slot) {
+  void take(std::size_t slot) override {
     Part& part = slots_[slot];
     if (step_ == kCount) {
       scans_[part.scan] = part.counts;
@@ -156,7 +160,7 @@ class PresenceCount::State {
     }
   }
 
-  std::vector<ScanPresence> finish() { return std::move(scans_); }
+  [[nodiscard]] std::vector<ScanPresence> finish() override { return std::move(scans_); }
 
  private:
   /// What a pass does. The last three come again for each range of marks.
@@ -310,32 +314,10 @@ class PresenceCount::State {
   UndecidedPoints undecided_;
 };
 
-PresenceCount::PresenceCount(const Input& input, const Room& room)
-    : state_(std::make_unique<State>(input, room)) {}
-PresenceCount::~PresenceCount() = default;
+}  // namespace
 
-bool PresenceCount::begin_pass(std::size_t slots) {
-  return state_->begin_pass(slots);
-}
-
-bool PresenceCount::waits_for_others() const {
-  return state_->waits_for_others();
-}
-
-std::size_t PresenceCount::bytes() const {
-  return state_->bytes();
-}
-
-void PresenceCount::read(const CheckedScan& scan, std::size_t slot) {
-  state_->read(scan, slot);
-}
-
-void PresenceCount::take(std::size_t slot) {
-  state_->take(slot);
-}
-
-std::vector<ScanPresence> PresenceCount::finish() {
-  return state_->finish();
+std::unique_ptr<PresenceCount> PresenceCount::start(const Input& input, const Room& room) {
+  return std::make_unique<MarkedPresence>(input, room);
 }
 
 }  // namespace raymoval::dynamicmap

@@ -62,24 +62,12 @@ class PresenceCount : public ScanVisitor {
   static constexpr std::size_t kMarksPerBlock = 16;
   static constexpr std::size_t kPointsPerBlock = 12;
 
-  /// All parts of the input outlive this object.
-  explicit PresenceCount(const Input& input) : PresenceCount(input, {}) {}
-  PresenceCount(const Input& input, const Room& room);
-  ~PresenceCount() override;
-
-  /// After the first pass, if the map is large.
-  [[nodiscard]] bool waits_for_others() const override;
-  bool begin_pass(std::size_t slots) override;
-  void read(const CheckedScan& scan, std::size_t slot) override;
-  void take(std::size_t slot) override;
+  /// @param input all its parts outlive the object
+  static std::unique_ptr<PresenceCount> start(const Input& input, const Room& room);
   /// Called once, after the last pass.
-  [[nodiscard]] std::vector<ScanPresence> finish();
+  [[nodiscard]] virtual std::vector<ScanPresence> finish() = 0;
   /// What it holds in memory now, without the truth.
-  [[nodiscard]] std::size_t bytes() const;
-
- private:
-  class State;
-  std::unique_ptr<State> state_;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
 /// The same counts for masks that already say which points are present.

@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 #include "eval/dynamicmap/marked_cells.h"
-#include "eval/points/nearby_points.h"
+#include "eval/points/nearest_points.h"
 
 namespace raymoval::dynamicmap {
 namespace {

@@ -1,15 +1,201 @@
 // SPDX-License-Identifier: MIT
 #include "eval/erasor/erasor.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "eval/erasor/maps/accumulate.h"
+#include "eval/erasor/maps/estimate_map.h"
+#include "eval/erasor/matching.h"
 #include "eval/erasor/options.h"
 #include "eval/erasor/rates.h"
-#include "eval/erasor/scorer.h"
+#include "eval/points/cloud_masks.h"
+#include "eval/points/nearest_points.h"
+
+namespace raymoval::erasor {
+namespace {
+
+[[noreturn]] void throw_empty_truth(const PointCounts& points) {
+  throw DataError(fmt::format(
+      "nothing to score against: of {} points {} are out of range, {} have ignored labels and {} "
+      "lie too near to the sensor; expected at least one that is left. Check range_m, the label "
+      "rule and minimum_horizontal_range.",
+      grouped_text(
+          static_cast<std::uint64_t>(points.out_of_range + points.ignored + points.cropped)),
+      points.out_of_range, points.ignored, points.cropped));
+}
+
+class ErasorScorer : public Scorer {
+ public:
+  ErasorScorer(const EvaluationInput& evaluated, const Options& options)
+      : Scorer(evaluated),
+        options_(options),
+        classes_(effective_rule(evaluated.label_rule, options)),
+        truth_(rules()) {
+    if (truth_.voxels() == 0) throw_empty_truth(truth_.points());
+    if (options_.label_mode == LabelMode::kNearest) {
+      dense_ = std::make_unique<NearestLabels>(dense_map(rules(), "points for labels"));
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<Scoring> start() const override {
+    return std::make_unique<ErasorScoring>(*this);
+  }
+
+  [[nodiscard]] ProtocolResult score_cloud(const CloudEstimate& cloud) const override {
+    if (options_.label_mode != LabelMode::kNearest) {
+      throw UsageError("a cloud has no labels by index: expected label_mode = nearest.");
+    }
+    if (options_.frame != FrameOption::kSequence) {
+      throw UsageError(
+          "a cloud stands in the frame of the sequence's poses: expected frame = sequence.");
+    }
+    ProtocolResult result =
+        result_of(ListedVoxels(cloud_map(cloud.points()), classes_), truth_.points(), 0);
+    std::erase_if(result.counts, [](const auto& count) { return count.first == "removed_points"; });
+    result.counts.emplace_back("cloud_points", static_cast<std::int64_t>(cloud.points().size()));
+    return result;
+  }
+
+ private:
+  class ErasorScoring : public Scoring {
+   public:
+    explicit ErasorScoring(const ErasorScorer& scorer)
+        : scorer_(scorer), map_(std::in_place, scorer.rules(), scorer.truth_) {}
+
+    bool begin_pass(std::size_t slots) override {
+      if (map_->begin_pass(slots)) return true;
+      result_ = scorer_.result_of_masks(*map_);
+      map_.reset();  // Others may need the memory for their passes.
+      return false;
+    }
+    void read(const CheckedScan& scan, std::size_t slot) override { map_->read(scan, slot); }
+    void take(std::size_t slot) override { map_->take(slot); }
+    ProtocolResult result() override { return std::move(result_); }
+
+   private:
+    const ErasorScorer& scorer_;
+    std::optional<EstimateMap> map_;  ///< Until the last pass.
+    ProtocolResult result_;
+  };
+
+  [[nodiscard]] MapRules rules() const { return {input(), options_, classes_}; }
+
+  [[nodiscard]] ProtocolResult result_of_masks(const EstimateMap& map) const {
+    const std::int64_t ties = map.mixed_label_ties();
+    if (!dense_) return result_of(map, map.points(), ties);
+    return result_of(relabelled(map), map.points(), ties);
+  }
+
+  /// A map whose labels are taken again from the nearest point of the dense map.
+  [[nodiscard]] ListedVoxels relabelled(const EstimateMap& map) const {
+    LabelledVoxels voxels;
+    map.cells().for_each([&](CellLattice::Number number, VoxelKey cell) {
+      if (!is_voxel(map.mean(number))) return;
+      voxels.keys.push_back(cell);
+      voxels.cloud.points.push_back(map.mean(number));
+    });
+    voxels.cloud.labels = dense_->labels_of(voxels.cloud.points, input().threads);
+    return {voxels, classes_};
+  }
+
+  /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. Points
+  /// of ignored labels stand in that map too, and what lies nearest to one is ignored likewise.
+  [[nodiscard]] LabelledVoxels cloud_map(const std::vector<Eigen::Vector3f>& points) const {
+    LabelledCloud cloud;
+    for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
+    cloud.labels.resize(points.size());
+    const LabelledVoxels all = voxelise(cloud, options_.voxel_size, classes_, input().threads);
+    if (all.size() == 0) return all;
+    EvaluationInput whole = input();
+    whole.label_rule.ignored.clear();
+    const LabelClasses whole_classes(effective_rule(whole.label_rule, options_));
+    const NearestLabels dense(dense_map({whole, options_, whole_classes}, "points for labels"));
+    const std::vector<std::uint32_t> labels = dense.labels_of(all.cloud.points, input().threads);
+    LabelledVoxels map;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (classes_.of(labels[i]) == LabelClass::kIgnored) continue;
+      map.keys.push_back(all.keys[i]);
+      map.cloud.points.push_back(all.cloud.points[i]);
+      map.cloud.labels.push_back(labels[i]);
+    }
+    return map;
+  }
+
+  /// @param points what became of the points that the estimate was made of
+  /// @param ties mixed-label ties of the estimate
+  [[nodiscard]] ProtocolResult result_of(const MapVoxels& estimate, const PointCounts& points,
+                                         std::int64_t ties) const {
+    const std::vector<VoxelKind> partners =
+        partner_kinds(truth_, estimate, options_, input().threads);
+    const Overlap overlap = overlap_of(estimate, truth_, options_, input().threads);
+    const CountingRule rule{options_.label_rule, options_.ignore_0_1, true};
+    ProtocolResult result;
+    result.protocol = "erasor";
+    add_matches(count_matches(truth_, partners, rule), "", result);
+    add_map_counts(overlap, points, ties, result);
+    add_no_truck(partners, rule, result);
+    result.intervals =
+        intervals_of(count_matches_by_scan(truth_, partners, input().scans->size(), rule));
+    add_warnings(overlap, result);
+    return result;
+  }
+
+  void add_map_counts(const Overlap& overlap, const PointCounts& points, std::int64_t ties,
+                      ProtocolResult& result) const {
+    result.counts.insert(result.counts.end(),
+                         {{"estimate_voxels", overlap.voxels},
+                          {"estimate_voxels_without_partner", overlap.without_partner},
+                          {"mixed_label_ties", truth_.mixed_label_ties()},
+                          {"estimate_mixed_label_ties", ties},
+                          {"unlabelled_voxels", truth_.unlabelled_voxels()},
+                          {"evaluated_points", points.evaluated},
+                          {"removed_points", points.removed},
+                          {"out_of_range_points", points.out_of_range},
+                          {"ignored_points", points.ignored},
+                          {"cropped_points", points.cropped}});
+  }
+
+  /// The same voxels with trucks counted as static. Labels travel by point and not by class, so
+  /// the maps and the partners stay as they are.
+  void add_no_truck(const std::vector<VoxelKind>& partners, CountingRule rule,
+                    ProtocolResult& result) const {
+    if (truth_.points().trucks == 0 || !classes_.moving(kMovingTruck)) return;
+    rule.trucks_move = false;
+    add_matches(count_matches(truth_, partners, rule), kNoTruck, result);
+  }
+
+  void add_warnings(const Overlap& overlap, ProtocolResult& result) const {
+    if (overlap.voxels == 0) {
+      result.warnings.push_back("the estimate is empty: the method removed every evaluated point");
+    } else if (2 * overlap.near < overlap.voxels) {
+      result.warnings.push_back(
+          "more than half of the estimate's voxels lie over " +
+          number_text(0.5 * options_.voxel_size) +
+          " m from the ground truth; are both in the same frame, made from the same scans?");
+    }
+  }
+
+  Options options_;
+  LabelClasses classes_;
+  TruthMap truth_;
+  /// The dense map, searchable; it is only kept if the estimate's labels are taken from it.
+  std::unique_ptr<NearestLabels> dense_;
+};
+
+}  // namespace
+}  // namespace raymoval::erasor
 
 namespace raymoval {
 namespace {
 
 std::unique_ptr<Scorer> open_erasor(const EvaluationInput& input, const Configuration& options) {
-  return erasor::make_scorer(input, erasor::option_table().read(options));
+  return std::make_unique<erasor::ErasorScorer>(input, erasor::option_table().read(options));
 }
 
 bool frame_needs_calibration(const Configuration& options) {

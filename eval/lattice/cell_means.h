@@ -8,26 +8,9 @@
 #include <vector>
 
 #include "core/scan/voxel_key.h"
+#include "eval/points/labelled_voxels.h"
 
 namespace raymoval {
-
-/// Mean of points that come one by one, summed as offsets from the first one, so that it is as
-/// exact far from the origin as near it. The same points in the same order give the same bits.
-struct OffsetMean {
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< Of the offsets of all points but the first.
-  std::uint32_t points = 0;
-
-  void add(const Eigen::Vector3d& point) {
-    if (points++ == 0) {
-      first = point;
-    } else {
-      sum += point - first;
-    }
-  }
-  /// @return not a number without points
-  [[nodiscard]] Eigen::Vector3d mean() const { return first + sum / static_cast<double>(points); }
-};
 
 /// The means of one scan's points, cell by cell.
 class CellMeans {

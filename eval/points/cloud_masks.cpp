@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/points/cloud_masks.h"
 
-#include "eval/points/nearby_points.h"
+#include "eval/points/nearest_points.h"
 #include "eval/points/scan_loops.h"
 
 namespace raymoval {

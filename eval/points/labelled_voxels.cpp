@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "eval/points/labelled_voxels.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "eval/points/cell_neighbours.h"
-#include "eval/points/cell_sort.h"
-#include "eval/points/label_vote.h"
+#include "eval/points/nearest_points.h"
 
 namespace raymoval {
 namespace {
 
 constexpr std::size_t kGrain = 16384;
+
+/// A point and the cell in which it lies.
+struct CellPoint {
+  VoxelKey key;
+  std::uint32_t point;
+};
 
 /// The input points by cell: those of cell i are order[first[i]] .. order[first[i + 1] - 1].
 struct Cells {
@@ -30,7 +36,9 @@ Cells group_by_cell(const LabelledCloud& cloud, double voxel_size, int threads) 
     cells.order[i] = {voxel_key(voxel_index(cloud.points[i], inverse)),
                       static_cast<std::uint32_t>(i)};
   });
-  sort_by_cell(cells.order);
+  std::sort(cells.order.begin(), cells.order.end(), [](const CellPoint& a, const CellPoint& b) {
+    return a.key != b.key ? a.key < b.key : a.point < b.point;
+  });
   for (std::size_t i = 0; i < cells.order.size(); ++i) {
     if (i > 0 && cells.order[i].key == cells.order[i - 1].key) continue;
     cells.keys.push_back(cells.order[i].key);
@@ -40,15 +48,12 @@ Cells group_by_cell(const LabelledCloud& cloud, double voxel_size, int threads) 
   return cells;
 }
 
-/// Mean of the cell's points, summed as offsets from the first one so that it is as exact far from
-/// the origin as near it.
 Eigen::Vector3d centroid(const LabelledCloud& cloud, const Cells& cells, std::size_t cell) {
-  const Eigen::Vector3d& origin = cloud.points[cells.order[cells.first[cell]].point];
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = cells.first[cell] + 1; i < cells.first[cell + 1]; ++i) {
-    sum += cloud.points[cells.order[i].point] - origin;
+  OffsetMean mean;
+  for (std::size_t i = cells.first[cell]; i < cells.first[cell + 1]; ++i) {
+    mean.add(cloud.points[cells.order[i].point]);
   }
-  return origin + sum / static_cast<double>(cells.first[cell + 1] - cells.first[cell]);
+  return mean.mean();
 }
 
 /// Fills voxels [begin, end). The nearest point is never farther than half a cell's diagonal (the

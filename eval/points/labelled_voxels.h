@@ -24,6 +24,24 @@ struct LabelledCloud {
   void append(const LabelledCloud& other);
 };
 
+/// Mean of points that come one by one, summed as offsets from the first one, so that it is as
+/// exact far from the origin as near it. The same points in the same order give the same bits.
+struct OffsetMean {
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< Of the offsets of all points but the first.
+  std::uint32_t points = 0;
+
+  void add(const Eigen::Vector3d& point) {
+    if (points++ == 0) {
+      first = point;
+    } else {
+      sum += point - first;
+    }
+  }
+  /// @return not a number without points
+  [[nodiscard]] Eigen::Vector3d mean() const { return first + sum / static_cast<double>(points); }
+};
+
 /// Occupied cells of a lattice anchored at the world origin, in the order of their keys (x runs
 /// fastest, then y, then z).
 struct LabelledVoxels {

@@ -44,23 +44,4 @@ struct PublishedTable {
 /// @throws ConfigurationError naming the file, the place in it and what was expected
 PublishedTable load_published_table(const std::filesystem::path& path);
 
-/// A printed number beside the one that follows from the rest of its table.
-struct ArithmeticCheck {
-  std::string method;
-  std::string place;  ///< Sequence, "average", "average (computed)" or "total".
-  std::string metric;
-  /// "harmonic_mean", "geometric_mean", "mean", "mean_F1", "F1_of_means" or "sum".
-  std::string rule;
-  double printed = 0.0;
-  double recomputed = 0.0;
-
-  [[nodiscard]] double deviation() const { return printed - recomputed; }
-};
-
-/// Recomputes every number that follows from others: rates with a formula (F1 from PR and RR, AA
-/// and HA from SA and DA), averages of rates, the average F1 by both rules (`mean_F1` and
-/// `F1_of_means`, of which a paper follows one), and totals of stages. Returns all comparisons; how
-/// large a deviation may be depends on the digits that were printed, which the caller knows.
-std::vector<ArithmeticCheck> check_arithmetic(const PublishedTable& table);
-
 }  // namespace raymoval

@@ -3,7 +3,9 @@
 
 #include <pybind11/stl.h>
 
-#include "benchmark/suite/amounts.h"
+#include <algorithm>
+
+#include "benchmark/suite/reading_options.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
@@ -21,53 +23,23 @@ std::string text_of(const py::handle& value) {
   return py::str(value);
 }
 
-using SetOption = void (*)(SequenceOptions&, const py::handle&);
-
-/// A text option as it is.
-template <auto Member>
-void set_text(SequenceOptions& options, const py::handle& value) {
-  options.*Member = text_of(value);
-}
-
-/// The options of `raymoval.open` by name.
-const std::map<std::string, SetOption>& option_setters() {
-  using Options = SequenceOptions;
-  static const std::map<std::string, SetOption> setters = {
-      {"poses", set_text<&Options::poses>},
-      {"label_rule", set_text<&Options::label_rule>},
-      {"sensor", set_text<&Options::sensor>},
-      {"up", set_text<&Options::up>},
-      {"name", set_text<&Options::name>},
-      {"topic", set_text<&Options::topic>},
-      {"pose_topic", set_text<&Options::pose_topic>},
-      {"point_layout", set_text<&Options::point_layout>},
-      {"T_sensor", set_text<&Options::T_sensor>},
-      {"pose_format", set_text<&Options::pose_format>},
-      {"point_time_unit", set_text<&Options::point_time_unit>},
-      {"frames", [](Options& o, const py::handle& v) { o.frames = parse_frame_range(text_of(v)); }},
-      {"range",
-       [](Options& o, const py::handle& v) { o.range_m = parse_range("range", text_of(v)); }},
-      {"drop_ego",
-       [](Options& o, const py::handle& v) { o.drop_ego = parse_ego_region(text_of(v)); }},
-      {"points",
-       [](Options& o, const py::handle& v) { o.points = parse_point_frame("points", text_of(v)); }},
-      {"time_offset", [](Options& o, const py::handle& v) { o.time_offset_s = v.cast<double>(); }},
-      {"max_gap", [](Options& o, const py::handle& v) { o.max_gap_s = v.cast<double>(); }},
-      {"deskew", [](Options& o, const py::handle& v) { o.deskew = v.cast<bool>(); }}};
-  return setters;
-}
-
+/// The options of `raymoval.open`: those of the command line, with _ for -.
 SequenceOptions options_from(const py::dict& given) {
   SequenceOptions options;
   for (const auto& [key, value] : given) {
     const std::string name = text_of(key);
-    const auto found = option_setters().find(name);
-    if (found == option_setters().end()) {
-      std::vector<std::string> names;
-      for (const auto& [known, setter] : option_setters()) names.push_back(known);
+    std::vector<std::string> names;
+    const ReadingOption* found = nullptr;
+    for (const ReadingOption& option : reading_options()) {
+      names.push_back(option.name);
+      std::replace(names.back().begin(), names.back().end(), '-', '_');
+      if (names.back() == name) found = &option;
+    }
+    if (found == nullptr) {
       throw UsageError("raymoval.open has no option '" + name + "'." + suggestion(name, names));
     }
-    found->second(options, value);
+    const bool is_flag = found->type.empty();
+    if (!is_flag || value.cast<bool>()) found->set(options, name, text_of(value));
   }
   return options;
 }

@@ -72,7 +72,9 @@ says 3 "building" check BUILD="echo building; exit 3"
 says 2 "METHOD is empty" check METHOD=
 
 # --- the action and the template call the script, with names that it has ---
-cd "$source_folder" || exit 1
+mkdir ../view
+cd ../view || exit 1
+ln -s "$source_folder"/.[a-z]* "$source_folder"/[a-zA-Z]* .
 holds "the example for GitHub uses the action" grep -q 'uses: OWNER/raymoval@VERSION' examples/ci/github.yml
 for file in action.yml examples/ci/gitlab.yml; do
   holds "$file is read" "$python" -c 'import sys, yaml; yaml.safe_load(open(sys.argv[1]))' $file

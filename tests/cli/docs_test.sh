@@ -59,8 +59,8 @@ done
   cat options.*
   echo --version
   grep -ohE -- '--[a-z][a-z-]+' "$source_folder"/scripts/*.sh "$source_folder"/scripts/workflow/*.sh
-  # Of cmake, snakemake and Python.
-  printf '%s\n' --preset --build --cores --config --profile --system-site-packages
+  # Of cmake, snakemake, Python and containers.
+  printf '%s\n' --preset --build --cores --config --profile --system-site-packages --build-arg --rm --userns
 } | sort -u >known_options
 for page in "${pages[@]}"; do
   for option in $(page_text "$page" | grep -oE -- '(^|[^a-z-])--[a-z][a-z-]+' | grep -oE -- '--.*' | sort -u); do
@@ -145,7 +145,7 @@ expect 0 "" clean data/05 -o static.pcd --method raymoval:online --quiet
 cd "$work" || exit 1
 
 # These take long or need what is not here; that they are understood is checked above.
-not_run='^(run (quick|field|simulated|simulated-quick|semantickitti) |compare out/quick |completion |cannot be built here)'
+not_run='^(run (quick|field|simulated|simulated-quick|semantickitti) |compare out/quick |cannot be built here)'
 # The example of a method in Python.
 export RAYMOVAL_PYTHON=/usr/bin/python3
 if ! $RAYMOVAL_PYTHON -c 'import numpy' 2>/dev/null; then

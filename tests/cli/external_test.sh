@@ -42,15 +42,7 @@ cell=cells/street/voxel-counts-default/cell.json
 holds "the example runs" "${run[@]}" --out out --keep-removals
 holds "it keeps what stands" awk -v x="$(column PR)" 'BEGIN { exit !(x > 85) }'
 holds "it removes what moves" awk -v x="$(column RR)" 'BEGIN { exit !(x > 80) }'
-masks=out/cells/street/voxel-counts-default/removals
-verify=("$raymoval" verify "$examples/../results/submissions/voxel_counts" --quiet)
-holds "its submission holds" "${verify[@]}" --masks $masks
-cp -r $masks tampered
-printf '\373' | dd of=tampered/000007.label bs=1 seek=400 conv=notrunc status=none
-"${verify[@]}" --masks tampered >tampered.txt 2>&1
-holds "with another mask it does not" test $? -eq 1
-holds "and says why" grep -q 'masks: the hash is' tampered.txt
-rm -r tampered $masks
+rm -r out/cells/street/voxel-counts-default/removals
 holds "it leaves no file behind" test -z "$(ls temporary)"
 holds "a short run" "${short[@]}" --out out --overwrite
 holds "runs again" "${short[@]}" --out again

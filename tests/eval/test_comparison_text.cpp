@@ -147,15 +147,6 @@ TEST_CASE("A score that only the run has is told") {
   CHECK(result.same_cells == 1);
 }
 
-TEST_CASE("What is missing on one side is told as such") {
-  ComparedCell run = cell_of("a", 99.0, 990);
-  run.identity = {{"data fingerprint", "abc"}, {"parameter x", "1"}};
-  CHECK(compared_one(run, cell_of("a", 99.0, 990)).incomparable ==
-        std::vector<std::string>{"s / a: parameter x is 1, the reference has none"});
-  CHECK(compared_one(cell_of("a", 99.0, 990), run).incomparable ==
-        std::vector<std::string>{"s / a: parameter x is missing, the reference has 1"});
-}
-
 TEST_CASE("A control's time is not judged") {
   ComparedCell run = cell_of("noop", 99.0, 990), reference = run;
   run.control = reference.control = true;
@@ -177,14 +168,6 @@ TEST_CASE("A time at its band is no worse, and one beyond says by how much") {
                                  "more than 2 times"});
   reference.seconds_per_scan = 0.0;  // Nothing can be told of it.
   CHECK(compared_one(run, reference).times.empty());
-}
-
-TEST_CASE("Every change has a name") {
-  CHECK(std::string(change_name(Change::kSame)) == "same");
-  CHECK(std::string(change_name(Change::kBetter)) == "better");
-  CHECK(std::string(change_name(Change::kMoved)) == "moved");
-  CHECK(std::string(change_name(Change::kWorse)) == "worse");
-  CHECK(std::string(change_name(Change::kIncomparable)) == "not comparable");
 }
 
 TEST_CASE("A run is better only without anything worse") {
@@ -252,14 +235,6 @@ TEST_CASE("A cell of other data is told for each score of the reference") {
   REQUIRE(result.scores.size() == 1);
   CHECK(result.scores[0].protocol == "erasor");
   CHECK(result.scores[0].change == Change::kIncomparable);
-}
-
-TEST_CASE("Cells of other names have lines of their own") {
-  ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
-  reference.cells[1].sequence = "t";
-  const ResultSet run{{cell_of("z", 99.0, 990)}, {}};
-  CHECK_THAT(comparison_text(compare_results(run, reference, {})),
-             Contains("Not comparable:\n  s / a: missing in the run\n  t / b: missing in the run"));
 }
 
 TEST_CASE("A new count is worse, however much better the rate") {
@@ -332,12 +307,6 @@ TEST_CASE("Times that are not there are not told") {
   CHECK(compare_results(here, there, {}).times.empty());
   CHECK(compare_results(here, none, {{}, 3.0}).incomparable ==
         std::vector<std::string>{"the reference has no cell"});
-}
-
-TEST_CASE("A tolerance of a rate that is not there says so") {
-  const ComparedCell cell = cell_of("a", 99.0, 990);
-  CHECK_THROWS_WITH(compared_one(cell, cell, {{{"SA", 1.0}}, {}}),
-                    Contains("--tolerance SA: the reference has no such metric"));
 }
 
 TEST_CASE("A rate has a tolerance if one is given, or none at all across parameters") {

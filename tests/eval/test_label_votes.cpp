@@ -4,7 +4,7 @@
 #include <random>
 
 #include "eval/lattice/label_votes.h"
-#include "eval/points/label_vote.h"
+#include "eval/points/nearest_points.h"
 
 namespace raymoval::test {
 

@@ -82,12 +82,12 @@ Memory memory_of_scoring(const MemorySequence& sequence) {
   const dynamicmap::TruthBlocks blocks = truth_blocks(truth, grid);
   const std::size_t count = blocks.blocks.size();
   // As little as large maps have, which small ones are spared.
-  dynamicmap::PresenceCount presence(
+  const auto presence = dynamicmap::PresenceCount::start(
       {truth, presence_options, grid, blocks},
       {.marks = dynamicmap::PresenceCount::kMarksPerBlock * count,
        .points = dynamicmap::PresenceCount::kPointsPerBlock * count});
   Watched watched_presence(
-      presence, [&] { note(memory.dynamicmap, blocks.blocks.bytes() + presence.bytes()); });
+      *presence, [&] { note(memory.dynamicmap, blocks.blocks.bytes() + presence->bytes()); });
 
   run_passes(input, sequence.masks(), {&watched_map, &watched_presence});
   return memory;

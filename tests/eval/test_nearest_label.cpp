@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "eval/points/cell_neighbours.h"
-#include "eval/points/label_vote.h"
 #include "eval/points/labelled_voxels.h"
+#include "eval/points/nearest_points.h"
 
 namespace raymoval {
 

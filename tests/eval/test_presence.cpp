@@ -37,12 +37,12 @@ Counted count(const EvaluationInput& input, const MaskStore& masks, const Option
   const TruthPoints truth(input, 0.0, options.ego_range);
   const FineGrid grid(options.distance);
   const TruthBlocks blocks = truth_blocks(truth, grid);
-  PresenceCount presence({truth, options, grid, blocks}, room);
-  CountedPasses passes(presence);
+  const auto presence = PresenceCount::start({truth, options, grid, blocks}, room);
+  CountedPasses passes(*presence);
   run_passes(input, masks, {&passes});
   Counted counted;
   counted.passes = passes.passes;
-  for (const ScanPresence& scan : presence.finish()) {
+  for (const ScanPresence& scan : presence->finish()) {
     counted.present.push_back(scan.present_static);
     counted.removed.push_back(scan.removed_dynamic);
   }

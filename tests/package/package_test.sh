@@ -84,7 +84,6 @@ for path in bin/raymoval share/raymoval/suites/quick.json \
   share/doc/raymoval/examples/external/voxel_counts/manifest.json \
   share/doc/raymoval/README.md share/doc/raymoval/docs/your-data.md \
   share/man/man1/raymoval.1 share/bash-completion/completions/raymoval \
-  share/zsh/vendor-completions/_raymoval share/fish/vendor_completions.d/raymoval.fish \
   share/raymoval/workflow/Snakefile share/raymoval/workflow/slurm/config.yaml \
   share/raymoval/workflow/slurm/raymoval-job-status.sh; do
   holds "raymoval holds $path" test -s "raymoval/usr/$path"
@@ -108,13 +107,6 @@ clean=(env -i HOME="$work" PATH=/usr/bin:/bin LC_ALL=C)
 holds "it tells its version" "${clean[@]}" "$raymoval" --version
 holds "it knows its suites" grep -q '^quick ' <("${clean[@]}" "$raymoval" list suites)
 holds "it knows its scenes" grep -q '^town ' <("${clean[@]}" "$raymoval" list scenes)
-holds "its manual page is the program's" diff raymoval/usr/share/man/man1/raymoval.1 \
-  <("${clean[@]}" "$raymoval" help --man)
-for shell in bash:bash-completion/completions/raymoval zsh:zsh/vendor-completions/_raymoval \
-  fish:fish/vendor_completions.d/raymoval.fish; do
-  holds "its completion for ${shell%%:*} is the program's" diff "raymoval/usr/share/${shell#*:}" \
-    <("${clean[@]}" "$raymoval" completion "${shell%%:*}")
-done
 if command -v snakemake >/dev/null; then
   mkdir elsewhere
   (cd elsewhere && "${clean[@]}" snakemake -s "$work/raymoval/usr/share/raymoval/workflow/Snakefile" \

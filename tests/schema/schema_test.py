@@ -208,31 +208,7 @@ def check_manifests(folder):
         check(f"program on {text}", tried.returncode == (0 if legal else 2), tried.stderr)
 
 
-def check_history(folder):
-    validator = schema("history")
-    lines = [json.loads(line) for path in sorted((ROOT / "results/history").glob("*.jsonl"))
-             for line in path.read_text().splitlines()]
-    check("there is a history", len(lines) > 100, len(lines))
-    for number, line in enumerate(lines):
-        check_valid(f"line {number} of the history", validator, line)
-    file = folder / "history.jsonl"
-    for name, line in mutations(lines[0]):
-        # What is null may be left out, and a key more is ignored, as in other files.
-        if name in ("'speed' renamed", "without 'speed'"):
-            continue
-        file.write_text(json.dumps(line) + "\n")
-        check(f"schema on history {name}", first_error(validator, line) != "")
-        check(f"program on history {name}", run("history", str(file)).returncode == 2)
-
-
-def check_submissions():
-    for path in sorted((ROOT / "results/submissions").glob("*/*.json")):
-        check_valid(str(path), schema("cell"), json.loads(path.read_text()))
-
-
 with tempfile.TemporaryDirectory() as name:
-    check_history(pathlib.Path(name))
-    check_submissions()
     check_results(pathlib.Path(name))
     check_suites(pathlib.Path(name))
     check_manifests(pathlib.Path(name))

@@ -185,9 +185,9 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
                     sequence.frames + ").");
   }
   std::vector<std::filesystem::path> inputs;
-  const std::string& rule = flags.reading.label_rule;
+  const std::string& rule = flags.reading.text("label-rule");
   if (!rule.empty() && is_rule_file(rule)) inputs.emplace_back(rule);
-  if (!flags.reading.poses.empty()) inputs.emplace_back(flags.reading.poses);
+  if (!flags.reading.text("poses").empty()) inputs.emplace_back(flags.reading.text("poses"));
   check_apart_from(sequence, paths, inputs);
   if (method.entry->needs_truth && !sequence.labels) {
     throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
@@ -251,8 +251,8 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
   }
   text += ".\n" + facts.shares.table();
   if (facts.range.kept) {
-    text += counted_text(facts.range.left_out, "point") + " beyond --range " + flags.reading.range +
-            " are in no output.\n";
+    text += counted_text(facts.range.left_out, "point") + " beyond --range " +
+            flags.reading.text("range") + " are in no output.\n";
   }
   for (const std::string& line : left_out_lines(sequence)) text += line + ".\n";
   for (const std::string& line : sequence.notes) text += line + '\n';

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
-#include "benchmark/result/sealed_json.h"
 #include "core/text.h"
 #include "eval/protocol_registry.h"
 
@@ -57,7 +55,7 @@ ExitCode describe(const DescribeFlags& flags) {
   if (flags.markdown && flags.json) throw UsageError("choose one of --markdown and --json.");
   const Description description = description_of(flags.name);
   if (flags.json) {
-    print(json_text(to_json(description)));
+    print(output_json(description));
   } else {
     print(flags.markdown ? description_markdown(description) : description_text(description));
     if (is_also_protocol(flags.name)) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
-#include "benchmark/result/sealed_json.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 
@@ -73,7 +71,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
                    {flags.work.thread_count(), &progress, &interrupt_flag()});
-  print(flags.json ? json_text(to_json(report)) : report_text(report));
+  print(flags.json ? output_json(report) : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
 

@@ -34,38 +34,34 @@ Lines method_lines(bool variants) {
   return lines;
 }
 
-Lines protocol_lines() {
+/// A line for each item of a list, which is a name or has one.
+template <class List, class Sentence>
+Lines lines_of(const List& list, Sentence sentence) {
   Lines lines;
-  for (const ProtocolEntry& entry : protocol_entries()) {
-    lines.emplace_back(entry.name, entry.sentence);
+  for (const auto& item : list) {
+    if constexpr (requires { item.name; }) {
+      lines.emplace_back(item.name, sentence(item));
+    } else {
+      lines.emplace_back(item, sentence(item));
+    }
   }
   return lines;
 }
 
 Lines sensor_lines() {
-  Lines lines;
-  for (const std::string& name : sensor_model_names()) lines.emplace_back(name, "");
+  Lines lines = lines_of(sensor_model_names(), [](const std::string&) { return ""; });
   lines.emplace_back("estimated", "field of view and steps as seen in the scans");
   return lines;
 }
 
-Lines scene_lines() {
-  Lines lines;
-  for (const std::string& name : simulated_scene_names()) {
-    const simulated::WorldFile world = simulated::parse_world(simulated::find_world(name));
-    lines.emplace_back(name, world.description + " (" +
-                                 grouped_text(static_cast<std::uint64_t>(world.scans)) +
-                                 " scans, " + world.sensor + ")");
-  }
-  return lines;
+std::string scene_sentence(const std::string& name) {
+  const simulated::WorldFile world = simulated::parse_world(simulated::find_world(name));
+  return world.description + " (" + grouped_text(static_cast<std::uint64_t>(world.scans)) +
+         " scans, " + world.sensor + ")";
 }
 
-Lines simulated_sensor_lines() {
-  Lines lines;
-  for (const std::string& name : simulated_sensor_names()) {
-    lines.emplace_back(name, simulated::parse_sensor(simulated::find_sensor(name)).description);
-  }
-  return lines;
+std::string simulated_sensor_sentence(const std::string& name) {
+  return simulated::parse_sensor(simulated::find_sensor(name)).description;
 }
 
 Lines sequence_lines() {
@@ -76,30 +72,13 @@ Lines sequence_lines() {
   return lines;
 }
 
-Lines pose_format_lines() {
-  Lines lines;
-  for (const PoseFormatName& format : pose_format_names()) {
-    lines.emplace_back(format.name, format.sentence);
-  }
-  return lines;
-}
-
 Lines column_lines() {
-  Lines lines;
-  for (const Column& column : general_columns()) {
-    const char* better =
-        column.better == Better::kHigher ? " (higher is better)" : " (lower is better)";
-    lines.emplace_back(column.name, column.description + better);
-  }
+  Lines lines = lines_of(general_columns(), [](const Column& column) {
+    const bool higher = column.better == Better::kHigher;
+    return column.description + (higher ? " (higher is better)" : " (lower is better)");
+  });
   lines.emplace_back("rejection [CLASS, BAND]", "For each moving class that occurs.");
   lines.emplace_back("preservation [CLASS, BAND]", "For each static class that occurs.");
-  return lines;
-}
-
-Lines suite_lines() {
-  Lines lines;
-  for (const std::string& name : shipped_suite_names())
-    lines.emplace_back(name, suite_sentence(name));
   return lines;
 }
 
@@ -116,17 +95,19 @@ void print_lines(const std::string& heading, const Lines& lines) {
 }
 
 ExitCode list(const std::string& what) {
+  const auto sentence_of = [](const auto& item) { return item.sentence; };
   const std::vector<std::pair<std::string, std::function<Lines()>>> lists = {
       {"methods", [] { return method_lines(false); }},
       {"variants", [] { return method_lines(true); }},
-      {"protocols", protocol_lines},
+      {"protocols", [&] { return lines_of(protocol_entries(), sentence_of); }},
       {"columns", column_lines},
       {"sensors", sensor_lines},
       {"sequences", sequence_lines},
-      {"pose-formats", pose_format_lines},
-      {"scenes", scene_lines},
-      {"simulated-sensors", simulated_sensor_lines},
-      {"suites", suite_lines}};
+      {"pose-formats", [&] { return lines_of(pose_format_names(), sentence_of); }},
+      {"scenes", [] { return lines_of(simulated_scene_names(), scene_sentence); }},
+      {"simulated-sensors",
+       [] { return lines_of(simulated_sensor_names(), simulated_sensor_sentence); }},
+      {"suites", [] { return lines_of(shipped_suite_names(), suite_sentence); }}};
   std::vector<std::string> names;
   bool found = false;
   for (const auto& [name, make] : lists) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
@@ -14,11 +13,6 @@ struct PlanFlags {
   std::string out;
   bool quiet = false;
 };
-
-/// A JSON value on a line of its own.
-std::string line_of(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
 
 ExitCode plan(const PlanFlags& flags) {
   const Suite suite = flags.what.resolved();
@@ -34,7 +28,7 @@ ExitCode plan(const PlanFlags& flags) {
     throw UsageError("`raymoval run` would refuse this folder: " + planned.refused);
   }
   std::string text;
-  for (const PlannedCell& cell : planned.cells) text += line_of(to_json(cell, !flags.out.empty()));
+  for (const PlannedCell& cell : planned.cells) text += output_json_line(cell, !flags.out.empty());
   print(text);
   return ExitCode::kDone;
 }

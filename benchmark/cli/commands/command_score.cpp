@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/removals/removal_files.h"
-#include "benchmark/result/sealed_json.h"
 #include "benchmark/run/scored_sequence.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
@@ -149,7 +147,7 @@ ExitCode score(const ScoreFlags& flags) {
   }
   progress.end();
   print(score_text(record));
-  if (!flags.json.empty()) write_atomically(output_target(flags.json), json_text(to_json(record)));
+  if (!flags.json.empty()) write_atomically(output_target(flags.json), output_json(record));
   return ExitCode::kDone;
 }
 

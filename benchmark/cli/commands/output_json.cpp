@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/cell_json.h"
+#include "benchmark/result/sealed_json.h"
 
 namespace raymoval {
 namespace {
@@ -64,7 +65,7 @@ const char* severity_name(Severity severity) {
   return severity == Severity::kNote ? "note" : "finding";
 }
 
-ordered_json to_json(const Description& description) {
+std::string output_json(const Description& description) {
   ordered_json variants = ordered_json::array();
   for (const MethodVariant& variant : description.variants) {
     variants.push_back(variant_json(variant));
@@ -79,10 +80,10 @@ ordered_json to_json(const Description& description) {
                        {"notes", description.notes},         {"variants", std::move(variants)},
                        {"parameters", std::move(parameters)}};
   if (description.confidence) json["confidence"] = *description.confidence;
-  return json;
+  return json_text(json);
 }
 
-ordered_json to_json(const PlannedCell& cell, bool looked) {
+std::string output_json_line(const PlannedCell& cell, bool looked) {
   ordered_json json = {{"cell", cell.cell.sequence + "/" + cell.cell.name},
                        {"key", cell.key.empty() ? ordered_json(nullptr) : ordered_json(cell.key)},
                        {"sequence", cell.cell.sequence},
@@ -91,21 +92,25 @@ ordered_json to_json(const PlannedCell& cell, bool looked) {
                        {"scans", cell.scans},
                        {"folder", cell.folder.generic_string()}};
   if (looked) json.update({{"to_run", cell.to_run}, {"why", cell.why}});
-  return json;
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-ordered_json to_json(const InspectionReport& report) {
+std::string output_json(const InspectionReport& report) {
   ordered_json findings = ordered_json::array();
   for (const Finding& finding : report.findings) findings.push_back(finding_json(finding));
   ordered_json measures = ordered_json::object();
   for (const auto& [name, value] : report.measures) measures[name] = value;
-  return {{"sequence", report.sequence},     {"layout", report.layout},
-          {"scans", report.scans},           {"scans_read", report.scans_read},
-          {"sensor", report.sensor},         {"notes", report.notes},
-          {"findings", std::move(findings)}, {"measures", std::move(measures)}};
+  return json_text({{"sequence", report.sequence},
+                    {"layout", report.layout},
+                    {"scans", report.scans},
+                    {"scans_read", report.scans_read},
+                    {"sensor", report.sensor},
+                    {"notes", report.notes},
+                    {"findings", std::move(findings)},
+                    {"measures", std::move(measures)}});
 }
 
-ordered_json to_json(const ScoreRecord& record) {
+std::string output_json(const ScoreRecord& record) {
   ordered_json protocols = ordered_json::array();
   for (const ScoredProtocol& scored : record.protocols) protocols.push_back(scored_json(scored));
   ordered_json json = {{"schema_version", kSchemaVersion},
@@ -114,7 +119,7 @@ ordered_json to_json(const ScoreRecord& record) {
                        {"protocols", std::move(protocols)}};
   if (record.cloud) json["cloud"] = cloud_json(*record.cloud);
   json["columns"] = to_json(record.columns);
-  return json;
+  return json_text(json);
 }
 
 }  // namespace raymoval

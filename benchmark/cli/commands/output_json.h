@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "benchmark/cli/commands/score_record.h"
 #include "benchmark/cli/description.h"
@@ -13,19 +13,19 @@ namespace raymoval {
 // What commands print as JSON. Keys and their order are part of the program's interface.
 
 /// `raymoval describe --json`.
-nlohmann::ordered_json to_json(const Description& description);
+std::string output_json(const Description& description);
 
 /// A line of `raymoval plan`.
 /// @param looked whether the run folder was looked at, so that `cell` says what is to be run
-nlohmann::ordered_json to_json(const PlannedCell& cell, bool looked);
+std::string output_json_line(const PlannedCell& cell, bool looked);
 
 /// "note" or "finding".
 const char* severity_name(Severity severity);
 
 /// `raymoval inspect --json`.
-nlohmann::ordered_json to_json(const InspectionReport& report);
+std::string output_json(const InspectionReport& report);
 
 /// `raymoval score --json`.
-nlohmann::ordered_json to_json(const ScoreRecord& record);
+std::string output_json(const ScoreRecord& record);
 
 }  // namespace raymoval

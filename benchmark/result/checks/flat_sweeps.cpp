@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/text.h"
@@ -21,74 +22,49 @@ std::string digest_of(const RunResults& results, const std::string& sequence,
   return "";
 }
 
-/// What cells of a sequence removed that differ in one parameter only, by the values of the others.
-using Groups = std::map<Values, std::vector<std::string>>;
-
-Groups groups_of(const RunResults& results, const std::string& sweep, const std::string& key,
-                 const std::string& sequence) {
-  Groups groups;
-  for (const SweptCell& swept : results.sweeps) {
-    if (swept.sweep() != sweep) continue;
-    Values others;
-    for (const auto& pair : swept.values) {
-      if (pair.first != key) others.push_back(pair);
-    }
-    const std::string digest = digest_of(results, sequence, swept.cell);
-    if (!digest.empty()) groups[others].push_back(digest);
+/// Whether all points of a sweep that differ in `key` only removed the same on a sequence; nothing
+/// where there is nothing to compare.
+std::optional<bool> is_flat(const RunResults& results, const std::vector<SweptCell>& points,
+                            const std::string& key, const std::string& sequence) {
+  std::map<Values, std::vector<std::string>> digests;  // By the values of the other parameters.
+  for (const SweptCell& point : points) {
+    Values others = point.values;
+    std::erase_if(others, [&](const auto& pair) { return pair.first == key; });
+    const std::string digest = digest_of(results, sequence, point.cell);
+    if (!digest.empty()) digests[others].push_back(digest);
   }
-  return groups;
-}
-
-/// Whether all cells of each group removed the same; nothing where there is nothing to compare.
-std::optional<bool> is_flat(const Groups& groups) {
-  bool compared = false;
-  for (const auto& [others, digests] : groups) {
-    if (digests.size() < 2) continue;
-    compared = true;
-    if (std::set<std::string>(digests.begin(), digests.end()).size() > 1) return false;
+  std::optional<bool> flat;
+  for (const auto& [others, group] : digests) {
+    if (group.size() < 2) continue;
+    flat = flat.value_or(true) && std::ranges::count(group, group.front()) == std::ssize(group);
   }
-  return compared ? std::optional<bool>(true) : std::nullopt;
-}
-
-std::vector<std::string> swept_keys(const RunResults& results, const std::string& sweep) {
-  std::vector<std::string> keys;
-  for (const SweptCell& swept : results.sweeps) {
-    if (swept.sweep() != sweep) continue;
-    for (const auto& [key, value] : swept.values) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-    }
-  }
-  return keys;
-}
-
-std::size_t value_count(const RunResults& results, const std::string& sweep,
-                        const std::string& key) {
-  std::set<std::string> values;
-  for (const SweptCell& swept : results.sweeps) {
-    if (swept.sweep() != sweep) continue;
-    for (const auto& [name, value] : swept.values) {
-      if (name == key) values.insert(value);
-    }
-  }
-  return values.size();
+  return flat;
 }
 
 }  // namespace
 
 std::vector<std::string> flat_sweeps(const RunResults& results, const std::string& sweep) {
+  std::vector<SweptCell> points = results.sweeps;
+  std::erase_if(points, [&](const SweptCell& point) { return point.sweep() != sweep; });
   std::vector<std::string> lines;
-  for (const std::string& key : swept_keys(results, sweep)) {
+  for (const auto& [key, any] : points.empty() ? Values{} : points.front().values) {
+    std::set<std::string> values;
+    for (const SweptCell& point : points) {
+      for (const auto& [name, value] : point.values) {
+        if (name == key) values.insert(value);
+      }
+    }
     std::vector<std::string> flat;
     std::size_t compared = 0;
     for (const std::string& sequence : results.sequences) {
-      const auto found = is_flat(groups_of(results, sweep, key, sequence));
+      const auto found = is_flat(results, points, key, sequence);
       compared += found ? 1 : 0;
       if (found.value_or(false)) flat.push_back(sequence);
     }
     if (flat.empty()) continue;
     lines.push_back(key + " made no difference" +
                     (flat.size() == compared ? "" : " on " + join(flat)) + ": with each of its " +
-                    std::to_string(value_count(results, sweep, key)) +
+                    std::to_string(values.size()) +
                     " values exactly the same points were removed.");
   }
   return lines;

@@ -17,7 +17,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// "toy" with the parameters size (1, from 0 to 10) and gap (2), which acts on sizes above 1.
-const MethodRegistry& toys() {
+const MethodRegistry& sweep_toys() {
   static const MethodRegistry registry = [] {
     MethodRegistry methods;
     MethodEntry toy = noop_entry();
@@ -36,7 +36,7 @@ Suite suite_of(const std::string& methods, const std::string& path = "street",
   const test::TemporaryFolder folder;
   write_atomically(folder.path() / "suite.json",
                    R"({"sequences": [")" + path + R"("], "methods": [)" + methods + "]}");
-  return read_suite(folder.path() / "suite.json", toys(), data);
+  return read_suite(folder.path() / "suite.json", sweep_toys(), data);
 }
 
 ResultRow row(const std::string& sequence, const std::string& cell, double pr, double rr,

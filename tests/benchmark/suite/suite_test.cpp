@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// The controls, and "toy" with variants a and b and the parameters size (1) and gap (2).
-const MethodRegistry& toys() {
+const MethodRegistry& toy_methods() {
   static const MethodRegistry registry = [] {
     MethodRegistry methods;
     methods.add(noop_entry());
@@ -41,7 +41,7 @@ double value(const Suite& suite, std::size_t method, const std::string& name) {
 Suite suite_of(const std::string& json) {
   const test::TemporaryFolder folder;
   write_atomically(folder.path() / "suite.json", json);
-  return read_suite(folder.path() / "suite.json", toys());
+  return read_suite(folder.path() / "suite.json", toy_methods());
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ TEST_CASE("A setting is METHOD.key=value") {
 TEST_CASE("A setting of a method reaches all variants, and one of a variant wins in any order") {
   for (const bool method_first : {true, false}) {
     Suite suite;
-    add_method(suite, "toy:a", "", toys());
-    add_method(suite, "toy:b", "", toys());
+    add_method(suite, "toy:a", "", toy_methods());
+    add_method(suite, "toy:b", "", toy_methods());
     std::vector<Setting> settings = {{"toy", "size", "5"}, {"toy:b", "size", "6"}};
     if (!method_first) std::swap(settings[0], settings[1]);
     apply_settings(suite, settings);
@@ -72,7 +72,7 @@ TEST_CASE("A setting of a method reaches all variants, and one of a variant wins
 
 TEST_CASE("A setting reaches a protocol under its name in the suite") {
   Suite suite;
-  add_method(suite, "toy:a", "", toys());
+  add_method(suite, "toy:a", "", toy_methods());
   add_protocol(suite, "erasor", "");
   add_protocol(suite, "erasor", "fine");
   const Setting setting = parse_setting("protocol:fine.voxel_size=0.1");
@@ -102,7 +102,7 @@ TEST_CASE("Values of a method that do not fit together are refused before anythi
 
 TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {
   Suite suite;
-  add_method(suite, "toy:a", "", toys());
+  add_method(suite, "toy:a", "", toy_methods());
   CHECK_THROWS_WITH(apply_settings(suite, {{"tow", "size", "1"}}), Contains("Did you mean 'toy'"));
   CHECK_THROWS_WITH(apply_settings(suite, {{"toy", "sise", "1"}}), Contains("'size'"));
   CHECK_THROWS_WITH(apply_settings(suite, {{"toy", "size", "11"}}), Contains("out of range"));
@@ -112,11 +112,12 @@ TEST_CASE("Settings that reach nothing, clash, or are illegal are errors") {
 
 TEST_CASE("Two cells of one name clash, and controls come first and only once") {
   Suite suite;
-  add_method(suite, "toy", "", toys());
-  CHECK_THROWS_AS(add_method(suite, "toy:a", "", toys()), UsageError);
-  CHECK_THROWS_AS(add_method(suite, "toy:b", "toy-a", toys()), UsageError);  // The same folder.
-  add_method(suite, "oracle", "", toys());
-  add_controls(suite, toys());
+  add_method(suite, "toy", "", toy_methods());
+  CHECK_THROWS_AS(add_method(suite, "toy:a", "", toy_methods()), UsageError);
+  CHECK_THROWS_AS(add_method(suite, "toy:b", "toy-a", toy_methods()),
+                  UsageError);  // The same folder.
+  add_method(suite, "oracle", "", toy_methods());
+  add_controls(suite, toy_methods());
   std::vector<std::string> names;
   for (const MethodRequest& request : suite.methods) names.push_back(request.name);
   CHECK(names ==
@@ -170,10 +171,10 @@ TEST_CASE("Every slip in a suite file is named with its place and the nearest le
 TEST_CASE(
     "The word all is the default variant of each method but the controls, and NAME:all is all "
     "variants") {
-  CHECK(expanded_methods("all", toys()) == std::vector<std::string>{"toy:a"});
-  CHECK(expanded_methods("toy:all", toys()) == std::vector<std::string>{"toy:a", "toy:b"});
-  CHECK(expanded_methods("toy", toys()) == std::vector<std::string>{"toy"});
-  CHECK_THROWS_WITH(expanded_methods("toi:all", toys()), Contains("Did you mean 'toy'"));
+  CHECK(expanded_methods("all", toy_methods()) == std::vector<std::string>{"toy:a"});
+  CHECK(expanded_methods("toy:all", toy_methods()) == std::vector<std::string>{"toy:a", "toy:b"});
+  CHECK(expanded_methods("toy", toy_methods()) == std::vector<std::string>{"toy"});
+  CHECK_THROWS_WITH(expanded_methods("toi:all", toy_methods()), Contains("Did you mean 'toy'"));
   const Suite suite = suite_of(
       R"({"sequences": ["street"], "methods": ["noop", {"method": "toy:all", "set": {"size": 4}}]})");
   REQUIRE(suite.methods.size() == 3);
@@ -183,6 +184,6 @@ TEST_CASE(
       suite_of(R"({"sequences": ["street"], "methods": [{"method": "toy:all", "as": "mine"}]})"),
       Contains("'as' names one method"));
   Suite one;
-  CHECK_THROWS_WITH(add_method(one, "toy:all", "", toys()),
+  CHECK_THROWS_WITH(add_method(one, "toy:all", "", toy_methods()),
                     Contains("stands for 2 methods") && Contains("toy:a, toy:b"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/tables/comparison/comparison_files.h"
+#include "benchmark/tables/comparison_files.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "eval/points/labelled_voxels.h"
@@ -52,6 +53,52 @@ class LabelVote {
   };
   std::vector<Candidate> candidates_;
   double nearest_ = std::numeric_limits<double>::infinity();
+};
+
+/// Answers whether any of many points lies within a fixed reach of a query point. The points are in
+/// the world frame, in metres. They stand in a k-d tree, so that a query costs little more at a
+/// place that thousands of scans saw.
+/// @tparam Point Eigen::Vector3d or Eigen::Vector3f; distances are in double
+template <class Point>
+class NearbyPoints {
+ public:
+  /// @param points must outlive this object
+  /// @param reach metres
+  NearbyPoints(const std::vector<Point>& points, double reach);
+  ~NearbyPoints();
+  NearbyPoints(const NearbyPoints&) = delete;
+  NearbyPoints& operator=(const NearbyPoints&) = delete;
+
+  /// Whether the squared distance of any point from `query` is at most `reach` squared.
+  [[nodiscard]] bool has_near(const Eigen::Vector3d& query) const;
+
+ private:
+  struct Tree;
+  double squared_reach_;
+  std::unique_ptr<const Tree> tree_;  ///< Null without points.
+};
+
+extern template class NearbyPoints<Eigen::Vector3d>;
+extern template class NearbyPoints<Eigen::Vector3f>;
+
+/// Gives query points the label of their exact nearest neighbour, however far away that is.
+class NearestLabels {
+ public:
+  /// Keeps `cloud`, which needs at least one point.
+  explicit NearestLabels(LabelledCloud cloud);
+  ~NearestLabels();
+  NearestLabels(const NearestLabels&) = delete;
+  NearestLabels& operator=(const NearestLabels&) = delete;
+
+  /// The label of the nearest point of each query point. Among points within `kLabelTieMargin` of
+  /// the nearest one, the point with the lowest index gives the label. The number of threads does
+  /// not change the answer.
+  [[nodiscard]] std::vector<std::uint32_t> labels_of(const std::vector<Eigen::Vector3d>& queries,
+                                                     int threads) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<const Tree> tree_;
 };
 
 }  // namespace raymoval

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "eval/points/nearby_points.h"
+#include "eval/points/nearest_points.h"
 
-#include <cstdint>
-#include <limits>
 #include <nanoflann.hpp>
+#include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -25,6 +25,17 @@ struct PointView {
   }
 };
 
+/// A k-d tree over points, which outlive it.
+template <class Point>
+struct PointTree {
+  using View = PointView<Point>;
+  explicit PointTree(const std::vector<Point>& points) : view{points}, index(3, view) {}
+  View view;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 3,
+                                      std::uint32_t>
+      index;
+};
+
 /// Stops the search at the first point in reach. The search prunes a little beyond it, so that
 /// rounding loses none.
 struct FirstInReach {
@@ -41,16 +52,25 @@ struct FirstInReach {
   void sort() const {}  // nanoflann 1.5 and later calls it.
 };
 
+/// Collects what a search meets; the search prunes whatever lies beyond `worstDist`.
+struct VoteCollector {
+  using DistanceType = double;
+  LabelVote& vote;
+  [[nodiscard]] std::size_t size() const { return 0; }
+  [[nodiscard]] bool full() const { return true; }
+  bool addPoint(double squared_distance, std::uint32_t point) const {
+    vote.offer(squared_distance, point);
+    return true;
+  }
+  [[nodiscard]] double worstDist() const { return 1.000001 * vote.reach() * vote.reach(); }
+  void sort() const {}  // nanoflann 1.5 and later calls it.
+};
+
 }  // namespace
 
 template <class Point>
-struct NearbyPoints<Point>::Tree {
-  using View = PointView<Point>;
-  explicit Tree(const std::vector<Point>& points) : view{points}, index(3, view) {}
-  View view;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 3,
-                                      std::uint32_t>
-      index;
+struct NearbyPoints<Point>::Tree : PointTree<Point> {
+  using PointTree<Point>::PointTree;
 };
 
 template <class Point>
@@ -77,5 +97,30 @@ bool NearbyPoints<Point>::has_near(const Eigen::Vector3d& query) const {
 
 template class NearbyPoints<Eigen::Vector3d>;
 template class NearbyPoints<Eigen::Vector3f>;
+
+struct NearestLabels::Tree {
+  explicit Tree(LabelledCloud points) : cloud(std::move(points)), tree(cloud.points) {}
+  LabelledCloud cloud;
+  PointTree<Eigen::Vector3d> tree;
+};
+
+NearestLabels::NearestLabels(LabelledCloud cloud)
+    : tree_(std::make_unique<Tree>(std::move(cloud))) {}
+NearestLabels::~NearestLabels() = default;
+
+std::vector<std::uint32_t> NearestLabels::labels_of(const std::vector<Eigen::Vector3d>& queries,
+                                                    int threads) const {
+  std::vector<std::uint32_t> labels(queries.size());
+  parallel_chunks(threads, queries.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    LabelVote vote;
+    VoteCollector collector{vote};
+    for (std::size_t i = begin; i < end; ++i) {
+      vote.clear();
+      tree_->tree.index.findNeighbors(collector, queries[i].data(), {});
+      labels[i] = tree_->cloud.labels[vote.decide([](std::uint32_t) { return false; }).point];
+    }
+  });
+  return labels;
+}
 
 }  // namespace raymoval
