@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <string>
 
+#include "core/files/scratch_folder.h"
 #include "datasets/bags/chunks/bag_file.h"
-#include "datasets/bags/chunks/private_folder.h"
 
 namespace raymoval {
 
-/// What a file packed by Zstandard unpacks to, in a private folder that goes with this object.
+/// What a file packed by Zstandard unpacks to, in a temporary folder that goes with this object.
 class TemporaryCopy {
  public:
   /// @throws DataError if the disk has no room for it, or if it unpacks to more than 1,000 times
@@ -22,7 +22,7 @@ class TemporaryCopy {
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
-  PrivateFolder folder_;
+  ScratchFolder folder_{kRecordingFolder};
   std::filesystem::path path_;
   std::string problem_;
 };

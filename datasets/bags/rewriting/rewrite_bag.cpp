@@ -11,6 +11,7 @@
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/files/same_file.h"
+#include "core/files/scratch_folder.h"
 #include "datasets/bags/chunks/pack.h"
 #include "datasets/bags/chunks/temporary_copy.h"
 #include "datasets/bags/open_bag.h"
@@ -64,7 +65,7 @@ void write_db3(const Db3Bag& bag, const fs::path& output, const ChangeMessage& c
 
 void write_packed(const PackedBag& bag, const fs::path& output, const ChangeMessage& change,
                   Replacements& together) {
-  const PrivateFolder folder;
+  const ScratchFolder folder(kRecordingFolder);
   const fs::path plain = folder.path() / without_zstd_ending(output.filename());
   Replacements inside;
   rewrite_file(bag.inside(), plain, change, inside);
