@@ -116,8 +116,8 @@ endif()
 raymoval_need_package(octomap 1.9 liboctomap-dev)
 raymoval_find_embree()
 raymoval_need(embree_FOUND "Embree 3.12 or later, or 4" libembree-dev)
-# Draws pictures and charts.
-raymoval_need_module(cairo libcairo2-dev cairo-pdf>=1.16 cairo-png cairo-ft)
+# Draws pictures.
+raymoval_need_module(cairo libcairo2-dev cairo-png>=1.16 cairo-ft)
 include(cmake/system_libraries.cmake)
 foreach(library lzf pcl_common pcl_sample_consensus octomap octomath)
   set(package liblzf-dev)

@@ -60,5 +60,5 @@ add_custom_command(OUTPUT ${report_source}
   DEPENDS ${report_parts} ${PROJECT_SOURCE_DIR}/cmake/embed_report.cmake
   COMMENT "Embedding the parts of reports" VERBATIM)
 target_sources(raymoval_benchmark PRIVATE ${report_source})
-set_source_files_properties(${PROJECT_SOURCE_DIR}/benchmark/report/page_parts.cpp PROPERTIES
+set_source_files_properties(${PROJECT_SOURCE_DIR}/benchmark/report/page.cpp PROPERTIES
   COMPILE_DEFINITIONS RAYMOVAL_THREE_VERSION="${three_version}")

@@ -81,11 +81,9 @@ def freeze_tables(out, run):
         (out / f"table.{form}").write_text(must("table", run, "--format", form))
     must("report", run, "-o", out / "report.html", "--quiet")
     must("picture", run, "-o", out / "map.png", "--quiet")
-    for kind in ("range", "overview"):
-        must("picture", run, "-o", out / f"{kind}.png", "--kind", kind, "--method", "raymoval:offline", "--quiet")
+    must("picture", run, "-o", out / "overview.png", "--kind", "overview", "--method", "raymoval:offline", "--quiet")
     for kind in ("pr-rr", "stages", "accuracy-time"):
-        for form in ("svg", "png", "pdf"):
-            must("picture", run, "-o", out / f"{kind}.{form}", "--kind", kind, "--quiet")
+        must("picture", run, "-o", out / f"{kind}.svg", "--kind", kind, "--quiet")
     print("tables", flush=True)
 
 

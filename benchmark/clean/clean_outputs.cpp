@@ -3,19 +3,34 @@
 
 #include <algorithm>
 
-#include "benchmark/clean/outputs/label_folder.h"
 #include "benchmark/clean/outputs/map_output.h"
 #include "benchmark/clean/outputs/map_views.h"
+#include "benchmark/clean/outputs/output_folder.h"
 #include "benchmark/clean/outputs/scan_folder.h"
 #include "benchmark/clean/outputs/tile_sink.h"
-#include "benchmark/clean/rows/confidence_rows.h"
+#include "benchmark/clean/rows/map_rows.h"
 #include "benchmark/picture/maps/map_picture.h"
+#include "benchmark/result/removals/removal_files.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
+
+/// A label file for each scan: 251 = removed, 9 = kept, 0 = in no output.
+class LabelFolder : public CleanOutput {
+ public:
+  explicit LabelFolder(const std::filesystem::path& path) : folder_(path) {}
+  void add(const CleanedScan& scan) override {
+    write_removal(folder_.place(), scan.scan, scan.mask);
+  }
+  void finish() override {}
+  void commit_with(Replacements& together) override { folder_.commit_with(together); }
+
+ private:
+  OutputFolder folder_;
+};
 
 bool is_map(const OutputPath& output) {
   return output.kind == OutputKind::kCloud || output.kind == OutputKind::kTiles;

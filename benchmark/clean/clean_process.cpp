@@ -12,10 +12,9 @@
 
 #include "core/files/file_kind.h"
 #include "core/files/part_name.h"
+#include "core/files/scratch_folder.h"
 #include "core/process/child_process.h"
 #include "core/progress.h"
-#include "datasets/bags/private_folder.h"
-#include "methods/external/external.h"
 
 namespace raymoval {
 namespace {
@@ -49,8 +48,7 @@ class LeftOvers {
 
  private:
   void remove() const {
-    remove_abandoned_private_folders();
-    remove_abandoned_working_folders();
+    remove_abandoned_scratch_folders();
     // The child was ended between two renames: what was there has another name and is the user's.
     if (present() != had_) return;
     std::error_code ignored;

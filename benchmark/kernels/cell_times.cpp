@@ -61,10 +61,8 @@ ScoredSequence opened_scene() {
 
 /// @return the cell's wall time in seconds
 double time_cell(ScoredSequence& scored, const MethodRequest& method, Cell& cell) {
-  CellTask task;
-  task.scored = &scored;
-  task.request = &method;
-  const double seconds = seconds_of([&] { cell = execute_cell(task); });
+  const MethodTask task{&scored.sequence(), &method};
+  const double seconds = seconds_of([&] { cell = execute_cell(scored, task); });
   if (cell.ok() && cell.measured) return seconds;
   throw Error(method.name + " on " + kScene + ": " + cell.reason, ExitCode::kWorse);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/process/checked_sink.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/files/files.h"
@@ -9,54 +11,56 @@
 namespace raymoval {
 namespace {
 
-std::string place(const std::string& method, std::size_t scan) {
-  return "method '" + method + "', scan " + std::to_string(scan) + ": ";
+/// @param of "method 'x', scan 3", and `what` was given, for messages
+/// @throws MethodError for an unknown scan, or if there is not one value for each of its points
+void check_values(const std::string& of, const char* what, const TimedSource& scans,
+                  std::size_t scan, std::size_t values) {
+  if (scan >= scans.size()) {
+    throw MethodError(
+        fmt::format("{}: there are only {} scans, counted from 0.", of, scans.size()));
+  }
+  const std::size_t points = scans.point_count(scan);
+  if (values == points) return;
+  throw MethodError(
+      fmt::format("{}: the {} has {} values, expected one for each of the scan's {} points.", of,
+                  what, grouped_text(values), grouped_text(points)));
+}
+
+/// @param kept `MaskStore` or `ScanSpool`
+/// @throws MethodError that names the first scan without a piece
+template <class Store>
+void check_complete(const std::string& method, const char* what, const Store& kept) {
+  for (std::size_t scan = 0; scan < kept.size(); ++scan) {
+    if (kept.has(scan)) continue;
+    throw MethodError(
+        fmt::format("method '{}' gave no {} for scan {} of {}, expected one for each.", method,
+                    what, scan, kept.size()));
+  }
+}
+
+[[noreturn]] void throw_given_twice(const std::string& of) {
+  throw MethodError(of + ": answered a second time, expected once.");
 }
 
 }  // namespace
 
-void check_answer(const std::string& method, const TimedSource& scans, std::size_t scan,
-                  const Mask& mask) {
-  const std::string who = place(method, scan);
-  if (scan >= scans.size()) {
-    throw MethodError(who + "there are only " + std::to_string(scans.size()) +
-                      " scans, counted from 0.");
-  }
-  const std::size_t points = scans.point_count(scan);
-  if (mask.size() != points) {
-    throw MethodError(who + "the mask has " + grouped_text(mask.size()) +
-                      " values, expected one for each of the scan's " + grouped_text(points) +
-                      " points.");
-  }
-  if (std::any_of(mask.begin(), mask.end(), [](std::uint8_t value) { return value > 1; })) {
-    throw MethodError(who + "a mask value is neither 0 (kept) nor 1 (removed).");
-  }
-}
-
-void throw_second_answer(const std::string& method, std::size_t scan) {
-  throw MethodError(place(method, scan) + "answered a second time, expected once.");
-}
-
-void throw_missing_answer(const std::string& method, std::size_t scan, std::size_t scans) {
-  throw MethodError("method '" + method + "' gave no mask for scan " + std::to_string(scan) +
-                    " of " + std::to_string(scans) + ", expected one for each.");
-}
-
 void CheckedSink::accept(std::size_t scan, const Mask& mask) {
-  check_answer(method_, scans_, scan, mask);
+  const std::string of = fmt::format("method '{}', scan {}", method_, scan);
+  check_values(of, "mask", scans_, scan, mask.size());
+  if (std::any_of(mask.begin(), mask.end(), [](std::uint8_t value) { return value > 1; })) {
+    throw MethodError(of + ": a mask value is neither 0 (kept) nor 1 (removed).");
+  }
   const std::lock_guard lock(mutex_);
-  if (masks_.has(scan)) throw_second_answer(method_, scan);
+  if (masks_.has(scan)) throw_given_twice(of);
   masks_.set(scan, mask);
 }
 
-const MaskStore& CheckedSink::finish() const {
-  for (std::size_t scan = 0; scan < masks_.size(); ++scan) {
-    if (!masks_.has(scan)) throw_missing_answer(method_, scan, masks_.size());
-  }
-  return masks_;
+MaskStore CheckedSink::finish() {
+  check_complete(method_, "mask", masks_);
+  return std::move(masks_);
 }
 
-void ReasonStore::explain(const std::vector<std::string>& sentences) {
+void CheckedReasons::explain(const std::vector<std::string>& sentences) {
   const std::lock_guard lock(mutex_);
   if (!reasons_.sentences.empty()) {
     throw MethodError("method '" + method_ + "' named its reasons twice, expected once.");
@@ -70,61 +74,34 @@ void ReasonStore::explain(const std::vector<std::string>& sentences) {
   reasons_.codes.resize(scans_.size());
 }
 
-void ReasonStore::accept(std::size_t scan, const std::vector<std::uint8_t>& codes) {
+void CheckedReasons::accept(std::size_t scan, const std::vector<std::uint8_t>& codes) {
+  const std::string of = fmt::format("method '{}', reasons of scan {}", method_, scan);
+  check_values(of, "list of codes", scans_, scan, codes.size());
   const std::lock_guard lock(mutex_);
-  const std::string who = "method '" + method_ + "', reasons of scan " + std::to_string(scan);
-  if (scan >= reasons_.codes.size()) {
-    throw MethodError(who + ": there is no such scan, or they came before their sentences.");
-  }
-  if (codes.size() != scans_.point_count(scan)) {
-    throw MethodError(who + ": there are " + grouped_text(codes.size()) +
-                      ", expected one for each of the scan's " +
-                      grouped_text(scans_.point_count(scan)) + " points.");
-  }
   const std::size_t end = reasons_.sentences.size();
+  if (end == 0) throw MethodError(of + ": they came before their sentences.");
   if (std::any_of(codes.begin(), codes.end(), [&](std::uint8_t code) { return code >= end; })) {
-    throw MethodError(who + ": a code has no sentence.");
+    throw MethodError(of + ": a code has no sentence.");
   }
   reasons_.codes[scan] = codes;
 }
 
-Reasons ReasonStore::finish() {
-  return std::move(reasons_);
-}
-
 void CheckedConfidence::accept(std::size_t scan, std::span<const float> evidence) {
-  const std::string who = "method '" + method_ + "', evidence of scan " + std::to_string(scan);
-  if (scan >= scans_.size()) {
-    throw MethodError(who + ": there are only " + std::to_string(scans_.size()) +
-                      " scans, counted from 0.");
-  }
-  if (evidence.size() != scans_.point_count(scan)) {
-    throw MethodError(who + ": there are " + grouped_text(evidence.size()) +
-                      " values, expected one for each of the scan's " +
-                      grouped_text(scans_.point_count(scan)) + " points.");
-  }
+  const std::string of = fmt::format("method '{}', evidence of scan {}", method_, scan);
+  check_values(of, "evidence", scans_, scan, evidence.size());
   std::string steps(evidence.size(), '\0');
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const bool is_fit = evidence[i] >= 0.0F && evidence[i] <= 1.0F;  // NaN is not.
-    if (!is_fit) throw MethodError(who + ": a value is not from 0 to 1.");
+    if (!is_fit) throw MethodError(of + ": a value is not from 0 to 1.");
     steps[i] = static_cast<char>(confidence_steps(calibration_.confidence(evidence[i])));
   }
   const std::lock_guard lock(mutex_);
-  if (is_filled_[scan] != 0) throw MethodError(who + " was given a second time, expected once.");
-  is_filled_[scan] = 1;
-  keep(scan, std::move(steps));
+  if (kept_.steps.has(scan)) throw_given_twice(of);
+  kept_.steps.put(scan, std::move(steps));
 }
 
-void CheckedConfidence::check_complete() const {
-  const auto missing = std::find(is_filled_.begin(), is_filled_.end(), 0);
-  if (missing == is_filled_.end()) return;
-  throw MethodError("method '" + method_ + "' gave no evidence for scan " +
-                    std::to_string(missing - is_filled_.begin()) + " of " +
-                    std::to_string(is_filled_.size()) + ", expected one for each.");
-}
-
-ConfidenceStore KeptConfidence::finish() {
-  check_complete();
+ConfidenceStore CheckedConfidence::finish() {
+  check_complete(method_, "evidence", kept_.steps);
   return std::move(kept_);
 }
 

@@ -17,26 +17,20 @@
 
 namespace raymoval {
 
-/// @throws MethodError for an unknown scan, a wrong size, or a value that is neither 0 nor 1
-void check_answer(const std::string& method, const TimedSource& scans, std::size_t scan,
-                  const Mask& mask);
-[[noreturn]] void throw_second_answer(const std::string& method, std::size_t scan);
-[[noreturn]] void throw_missing_answer(const std::string& method, std::size_t scan,
-                                       std::size_t scans);
-
-/// Keeps a method's masks and checks that the method keeps to its contract.
+/// Keeps a method's masks and checks that the method keeps to the contract of `RemovalSink`.
 class CheckedSink : public RemovalSink {
  public:
   /// @param method name for messages
-  CheckedSink(std::string method, const TimedSource& scans)
-      : method_(std::move(method)), scans_(scans), masks_(scans.size()) {}
+  /// @param masks where they are kept: empty, for as many scans
+  CheckedSink(std::string method, const TimedSource& scans, MaskStore masks)
+      : method_(std::move(method)), scans_(scans), masks_(std::move(masks)) {}
 
   /// @throws MethodError for an unknown scan, a second mask, a wrong size, or a value that is
-  /// neither 0 nor 1.
+  /// neither 0 nor 1; DataError as `ScanSpool::put`
   void accept(std::size_t scan, const Mask& mask) override;
 
   /// The masks. @throws MethodError that names the first scan without a mask
-  [[nodiscard]] const MaskStore& finish() const;
+  [[nodiscard]] MaskStore finish();
 
  private:
   std::string method_;
@@ -45,11 +39,11 @@ class CheckedSink : public RemovalSink {
   MaskStore masks_;
 };
 
-/// Keeps a method's reasons and holds it to the contract of `ReasonSink`.
-class ReasonStore : public ReasonSink {
+/// Keeps a method's reasons and checks that the method keeps to the contract of `ReasonSink`.
+class CheckedReasons : public ReasonSink {
  public:
   /// @param method name for messages
-  ReasonStore(std::string method, const TimedSource& scans)
+  CheckedReasons(std::string method, const TimedSource& scans)
       : method_(std::move(method)), scans_(scans) {}
 
   /// @throws MethodError for no or more than 127 sentences, or a second call
@@ -57,7 +51,7 @@ class ReasonStore : public ReasonSink {
   /// @throws MethodError before `explain`, and for an unknown scan, a wrong size or an unknown code
   void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) override;
   /// What was given; scans without reasons have none.
-  [[nodiscard]] Reasons finish();
+  [[nodiscard]] Reasons finish() { return std::move(reasons_); }
 
  private:
   std::string method_;
@@ -66,48 +60,32 @@ class ReasonStore : public ReasonSink {
   Reasons reasons_;
 };
 
-/// Makes a confidence of a method's evidence, and holds the method to the contract of
-/// `EvidenceSink`. Where it is kept is left to others.
+/// Keeps the confidences that follow from a method's evidence, and checks that the method keeps to
+/// the contract of `EvidenceSink`.
 class CheckedConfidence : public EvidenceSink {
  public:
   /// @param method name for messages
   /// @param calibration not empty; must outlive this object
-  CheckedConfidence(std::string method, const Calibration& calibration, const TimedSource& scans)
+  /// @param steps where the confidences are kept: empty, for as many scans
+  CheckedConfidence(std::string method, const Calibration& calibration, const TimedSource& scans,
+                    ScanSpool steps)
       : method_(std::move(method)),
         calibration_(calibration),
         scans_(scans),
-        is_filled_(scans.size(), 0) {}
+        kept_{std::move(steps)} {}
 
   /// @throws MethodError for an unknown scan, a second answer, a wrong size, or a value that is not
-  /// from 0 to 1
+  /// from 0 to 1; DataError as `ScanSpool::put`
   void accept(std::size_t scan, std::span<const float> evidence) override;
-  /// @throws MethodError that names the first scan without values
-  void check_complete() const;
 
- protected:
-  /// Takes the steps of a scan's points, by one thread at a time.
-  virtual void keep(std::size_t scan, std::string steps) = 0;
+  /// What was given. @throws MethodError that names the first scan without values
+  [[nodiscard]] ConfidenceStore finish();
 
  private:
   std::string method_;
   const Calibration& calibration_;
   const TimedSource& scans_;
   std::mutex mutex_;
-  std::vector<std::uint8_t> is_filled_;  ///< By scan.
-};
-
-/// Keeps a method's confidence in memory, a byte for each point.
-class KeptConfidence : public CheckedConfidence {
- public:
-  KeptConfidence(std::string method, const Calibration& calibration, const TimedSource& scans)
-      : CheckedConfidence(std::move(method), calibration, scans),
-        kept_{std::vector<std::string>(scans.size())} {}
-
-  /// What was given. @throws MethodError as `check_complete`
-  [[nodiscard]] ConfidenceStore finish();
-
- private:
-  void keep(std::size_t scan, std::string steps) override { kept_.steps[scan] = std::move(steps); }
   ConfidenceStore kept_;
 };
 

@@ -22,6 +22,8 @@ using nlohmann::json;
 
 // What was read of the data; the names of the scans are those of the parent.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadedData, settings, scans, labels, change)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MethodOptions, threads, with_reasons, with_confidence,
+                                   loads_ahead)
 
 namespace {
 
@@ -30,18 +32,14 @@ struct OrderMessage {
   json place;
   std::string name, method;
   json parameters;
-  int threads = 1;
-  bool with_reasons = false;
-  bool loads_ahead = true;
-  bool with_confidence = false;
-  std::vector<double> up;  ///< x, y and z.
+  MethodOptions options = {};
+  std::vector<double> up = {};  ///< x, y and z.
   int up_source = 0;
-  int progress = 0;
-  std::string progress_context;
+  int progress = static_cast<int>(ProgressStyle::kQuiet);
+  std::string progress_context = {};
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OrderMessage, place, name, method, parameters, threads,
-                                   with_reasons, loads_ahead, with_confidence, up, up_source,
-                                   progress, progress_context)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OrderMessage, place, name, method, parameters, options, up,
+                                   up_source, progress, progress_context)
 
 /// What stands before the masks, reasons and confidence of an answer.
 struct AnswerHead {
@@ -110,21 +108,18 @@ class MessageReader {
 
 }  // namespace
 
-void write_order(int file, const MethodOrder& order) {
-  const ConfiguredMethod& method = order.request.method;
-  const Eigen::Vector3d& up = order.up.direction;
-  MessageWriter(file).put_json(OrderMessage{to_json(order.place),
-                                            order.request.name,
-                                            method.address(),
-                                            to_json(method.configuration),
-                                            order.threads,
-                                            order.with_reasons,
-                                            order.loads_ahead,
-                                            order.with_confidence,
-                                            {up.x(), up.y(), up.z()},
-                                            static_cast<int>(order.up.source),
-                                            static_cast<int>(order.progress),
-                                            order.progress_context});
+void write_order(int file, const MethodTask& task) {
+  const ConfiguredMethod& method = task.request->method;
+  const UpDirection up = task.sequence->up();
+  OrderMessage message{to_json(*task.place), task.request->name, method.address(),
+                       to_json(method.configuration), task.options};
+  message.up = {up.direction.x(), up.direction.y(), up.direction.z()};
+  message.up_source = static_cast<int>(up.source);
+  if (task.progress != nullptr) {
+    message.progress = static_cast<int>(task.progress->style());
+    message.progress_context = task.progress->context();
+  }
+  MessageWriter(file).put_json(message);
 }
 
 MethodOrder read_order(int file, const MethodRegistry& registry) {
@@ -135,10 +130,7 @@ MethodOrder read_order(int file, const MethodRegistry& registry) {
     const ParameterSpec& spec = find_parameter(entry.name, entry.parameters, key);
     set_parameter(request.method.configuration, key, checked_value(entry.name, spec, value));
   }
-  MethodOrder order{place_from(message.place), std::move(request), message.threads};
-  order.with_reasons = message.with_reasons;
-  order.loads_ahead = message.loads_ahead;
-  order.with_confidence = message.with_confidence;
+  MethodOrder order{place_from(message.place), std::move(request), message.options};
   order.up = {{message.up.at(0), message.up.at(1), message.up.at(2)},
               static_cast<UpDirection::Source>(message.up_source)};
   order.progress = static_cast<ProgressStyle>(message.progress);
@@ -163,7 +155,8 @@ void write_answer(int file, const MethodAnswer& answer) {
   for (const std::vector<std::uint8_t>& codes : answer.reasons.codes) {
     writer.put({reinterpret_cast<const char*>(codes.data()), codes.size()});
   }
-  for (const std::string& steps : answer.confidence.steps) writer.put(steps);
+  const ScanSpool& steps = answer.confidence.steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) writer.put(steps.get(i));
 }
 
 MethodAnswer read_answer(int file) {
@@ -189,7 +182,7 @@ MethodAnswer read_answer(int file) {
     answer.reasons.codes.emplace_back(codes.begin(), codes.end());
   }
   for (const std::size_t points : head.points) {
-    if (head.has_confidence) answer.confidence.steps.push_back(reader.take(points));
+    if (head.has_confidence) answer.confidence.steps.append(reader.take(points));
   }
   return answer;
 }

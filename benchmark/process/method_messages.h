@@ -13,10 +13,7 @@ namespace raymoval {
 struct MethodOrder {
   SequenceRequest place;  ///< Where the child opens the sequence, and how.
   MethodRequest request;  ///< The child needs its name, method and parameters only.
-  int threads = 1;
-  bool with_reasons = false;     ///< Whether the method is asked for its reasons.
-  bool loads_ahead = true;       ///< See `MethodTask`.
-  bool with_confidence = false;  ///< Whether it is asked for its confidence.
+  MethodOptions options = {};
   /// Which way is up there, which takes reading scans to find out.
   UpDirection up = {};
   ProgressStyle progress = ProgressStyle::kQuiet;
@@ -25,8 +22,9 @@ struct MethodOrder {
 
 // Both messages are files, since a pipe would hold up whoever writes more than the other reads.
 
+/// @param task with a place
 /// @throws DataError if `file` cannot be written
-void write_order(int file, const MethodOrder& order);
+void write_order(int file, const MethodTask& task);
 /// @throws nlohmann::json::exception or MethodError if the order is not whole
 MethodOrder read_order(int file, const MethodRegistry& registry);
 

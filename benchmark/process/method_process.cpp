@@ -11,13 +11,12 @@
 
 #include "benchmark/process/method_messages.h"
 #include "core/files/descriptor_io.h"
+#include "core/files/scratch_folder.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/text.h"
-#include "datasets/bags/private_folder.h"
 #include "datasets/open_sequence.h"
 #include "datasets/world_axes/up_direction.h"
-#include "methods/external/external.h"
 
 namespace raymoval {
 namespace {
@@ -85,39 +84,23 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
 /// Removes what a process that was ended could not: a recording that it unpacked, and the working
 /// folder of an external method.
 struct Tidy {
-  const MethodEntry& entry;
-  ~Tidy() {
-    remove_abandoned_private_folders();
-    if (!entry.manifest.empty()) remove_abandoned_working_folders();
-  }
+  ~Tidy() { remove_abandoned_scratch_folders(); }
 };
 
 }  // namespace
 
-MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& place,
-                              const ChildLimits& limits) {
+MethodAnswer run_method_apart(const MethodTask& task) {
   const Descriptor order_file = memory_file("order");
   const Descriptor answer_file = memory_file("answer");
-  MethodOrder order{place,
-                    *task.request,
-                    task.threads,
-                    task.with_reasons,
-                    task.loads_ahead,
-                    task.with_confidence,
-                    task.sequence->up()};
-  if (task.progress != nullptr) {
-    order.progress = task.progress->style();
-    order.progress_context = task.progress->context();
-    task.progress->end();
-  }
-  write_order(order_file.get(), order);
-  const Tidy tidy{*task.request->method.entry};
+  write_order(order_file.get(), task);
+  if (task.progress != nullptr) task.progress->end();
+  const Tidy tidy;
   ChildSetup setup;
   setup.arguments = {"raymoval", kMethodCommand};
   setup.descriptors = {{order_file.get(), kOrderFile},
                        {answer_file.get(), kAnswerFile},
                        {STDERR_FILENO, kProgressFile}};
-  setup.limits = limits;
+  setup.limits = task.limits;
   setup.cancel = task.cancel;
   const ChildEnd end = run_child(setup);
   MethodAnswer answer;
@@ -130,7 +113,7 @@ MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& pla
       answer.reason = std::string("gave no readable answer (") + error.what() + ")";
     }
   } else {
-    answer = no_answer(end, limits);
+    answer = no_answer(end, task.limits);
   }
   if (answer.status != CellStatus::kOk) answer.output_tail = end.output_tail;
   return answer;
@@ -150,11 +133,10 @@ void serve_method(const MethodRegistry& registry) {
   try {
     // The parent compares what is loaded here with what it has checked itself.
     Sequence sequence = open_sequence(order.place.path, order.place.options,
-                                      {order.threads, &progress, nullptr, false});
+                                      {order.options.threads, &progress, nullptr, false});
     if (sequence.up_choice) sequence.up_choice = std::make_shared<const UpChoice>(order.up);
     const WatchedSequence data = watched(std::move(sequence));
-    answer = run_method({&data.sequence, &order.request, order.threads, &progress, nullptr,
-                         order.with_reasons, order.loads_ahead, order.with_confidence});
+    answer = run_method({&data.sequence, &order.request, order.options, &progress});
     answer.loaded = data.loaded();
   } catch (const Error& error) {
     answer.status = CellStatus::kBadData;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "benchmark/process/method_run.h"
-#include "core/process/child_process.h"
 
 namespace raymoval {
 
@@ -11,10 +10,9 @@ inline constexpr const char* kMethodCommand = "run-method";
 
 /// Runs a method in a child process (this program with `kMethodCommand`). If the method crashes,
 /// hangs or leaks there, the answer has a status, a reason and the end of what it printed.
-/// @param place where the child opens the sequence
+/// @param task with a place
 /// @throws Cancelled; DataError if no process can be started
-MethodAnswer run_method_apart(const MethodTask& task, const SequenceRequest& place,
-                              const ChildLimits& limits);
+MethodAnswer run_method_apart(const MethodTask& task);
 
 /// The child's side: reads the order from the descriptors that `run_method_apart` gives it, and
 /// answers there. @throws UsageError if there are none because somebody typed the command

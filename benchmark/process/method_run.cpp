@@ -71,49 +71,57 @@ Measurement measure(const StageTimes& times, const TimedSource& scans, double se
   return measured;
 }
 
-void answer_task(const MethodTask& task, MethodAnswer& answer) {
-  const auto remover = make_remover(task.request->method, *task.sequence);
-  // The one frame that methods see; masks go by index, so nothing has to be turned back.
-  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
-  std::optional<LoadingAhead> ahead;
-  if (task.loads_ahead && hardware_threads() > 1) ahead.emplace(local);
-  const TimedSource scans(ahead ? static_cast<const ScanSource&>(*ahead) : local);
-  CheckedSink sink(task.request->name, scans);
-  StageTimes times;
-  RunContext context;
-  context.threads = task.threads;
-  context.progress = task.progress;
-  context.times = &times;
-  context.cancel = task.cancel;
-  ReasonStore reasons(task.request->name, scans);
-  if (task.with_reasons) context.reasons = &reasons;
-  const Calibration& calibration = task.request->method.entry->confidence;
-  KeptConfidence confidence(task.request->name, calibration, scans);
-  const bool is_asked = task.with_confidence && !calibration.empty();
-  if (is_asked) context.evidence = &confidence;
-  const bool was_reset = reset_peak_memory();
-  const auto started = std::chrono::steady_clock::now();
-  remover->run(scans, sink, context);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-  const double seconds = std::max(0.0, wall.count() - scans.waited_seconds());
-  answer.measured = measure(times, scans, seconds, task.threads);
-  answer.measured.peak_memory_mib = peak_since_reset(was_reset);
-  answer.masks = sink.finish();
-  answer.reasons = reasons.finish();
-  if (is_asked) answer.confidence = confidence.finish();
+/// Where an answer's pieces are kept, one for each scan.
+ScanSpool spool_of(const MethodTask& task, const char* what) {
+  const std::size_t scans = task.sequence->scans->size();
+  return task.spool_beside.empty() ? ScanSpool(scans) : ScanSpool(scans, task.spool_beside, what);
 }
 
 }  // namespace
 
-MethodAnswer run_method(const MethodTask& task) {
+MethodAnswer run_remover(Remover& remover, const MethodTask& task) {
+  const std::string& name = task.request->name;
+  // The one frame that methods see; masks go by index, so nothing has to be turned back.
+  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
+  std::optional<LoadingAhead> ahead;
+  if (task.options.loads_ahead && hardware_threads() > 1) ahead.emplace(local);
+  const TimedSource scans(ahead ? static_cast<const ScanSource&>(*ahead) : local);
+  CheckedSink sink(name, scans, MaskStore(spool_of(task, "masks")));
+  StageTimes times;
+  RunContext context;
+  context.threads = task.options.threads;
+  context.progress = task.progress;
+  context.times = &times;
+  context.cancel = task.cancel;
+  CheckedReasons reasons(name, scans);
+  if (task.options.with_reasons) context.reasons = &reasons;
+  std::optional<CheckedConfidence> confidence;
+  if (task.options.with_confidence && !task.request->method.entry->confidence.empty()) {
+    context.evidence = &confidence.emplace(name, task.request->method.entry->confidence, scans,
+                                           spool_of(task, "confidence"));
+  }
+  const bool was_reset = reset_peak_memory();
+  const auto started = std::chrono::steady_clock::now();
+  remover.run(scans, sink, context);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+  const double seconds = std::max(0.0, wall.count() - scans.waited_seconds());
   MethodAnswer answer;
+  answer.measured = measure(times, scans, seconds, task.options.threads);
+  answer.measured.peak_memory_mib = peak_since_reset(was_reset);
+  answer.masks = sink.finish();
+  answer.reasons = reasons.finish();
+  if (confidence) answer.confidence = confidence->finish();
+  return answer;
+}
+
+MethodAnswer run_method(const MethodTask& task) {
+  MethodAnswer failed;
   const auto fail = [&](CellStatus status, const std::string& reason) {
-    answer = {};
-    answer.status = status;
-    answer.reason = reason;
+    failed.status = status;
+    failed.reason = reason;
   };
   try {
-    answer_task(task, answer);
+    return run_remover(*make_remover(task.request->method, *task.sequence), task);
   } catch (const Cancelled&) {
     throw;
   } catch (const DataError& error) {
@@ -125,7 +133,7 @@ MethodAnswer run_method(const MethodTask& task) {
   } catch (...) {
     fail(CellStatus::kFailed, "the method threw something that is no std::exception");
   }
-  return answer;
+  return failed;
 }
 
 void check_has_labels(const Sequence& sequence) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,24 +10,37 @@
 #include "benchmark/result/cell.h"
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
+#include "core/process/child_process.h"
 #include "core/progress.h"
 #include "core/scan/confidence_store.h"
 #include "core/scan/mask_store.h"
 #include "datasets/reading/loaded_data.h"
+#include "methods/remover.h"
 
 namespace raymoval {
+
+/// How a method runs, and what it is asked for besides its masks.
+struct MethodOptions {
+  int threads = 1;
+  bool with_reasons = false;     ///< Why it removed points.
+  bool with_confidence = false;  ///< How sure it is of each point, if it has a confidence.
+  /// Whether scans are loaded before the method asks for them, if the machine has a second core.
+  bool loads_ahead = true;
+};
 
 /// One method on one sequence.
 struct MethodTask {
   const Sequence* sequence = nullptr;
   const MethodRequest* request = nullptr;
-  int threads = 1;
+  MethodOptions options = {};
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
-  bool with_reasons = false;  ///< Whether the method is asked why.
-  /// Whether scans are loaded before the method asks for them, if the machine has a second core.
-  bool loads_ahead = true;
-  bool with_confidence = false;  ///< Whether the method is asked how sure it is, if it can say.
+  /// Where a child process opens the sequence. If it is null, the method runs in this process.
+  const SequenceRequest* place = nullptr;
+  ChildLimits limits = {};  ///< Of the child process.
+  /// A path beside which the answer is kept in files without names. If it is empty, the answer is
+  /// kept in memory.
+  std::filesystem::path spool_beside = {};
 };
 
 /// What came of it. There are `masks` and `measured` only if `status` is kOk.
@@ -36,14 +50,20 @@ struct MethodAnswer {
   std::string output_tail;  ///< Of a method that ran in a process of its own and failed.
   MaskStore masks;
   Measurement measured;
-  Reasons reasons = {};             ///< Empty if it was not asked, or cannot say.
+  Reasons reasons = {};             ///< Empty if it was not asked, or has none.
   ConfidenceStore confidence = {};  ///< The same.
   /// What was read of the sequence, if the method ran in a process of its own.
   std::optional<LoadedData> loaded = std::nullopt;
 };
 
-/// Runs a method in this process and checks its answer. Never throws for a fault of the method or
-/// the data. @throws Cancelled
+/// Runs a remover in this process and checks its answer. This is the one place where methods run,
+/// for `run`, `clean` and Python alike.
+/// @throws whatever the method throws; MethodError if it does not keep to its contract; DataError
+/// if the answer cannot be kept
+MethodAnswer run_remover(Remover& remover, const MethodTask& task);
+
+/// Runs the task's method in this process. Never throws for a fault of the method or the data.
+/// @throws Cancelled
 MethodAnswer run_method(const MethodTask& task);
 
 /// @throws DataError that points to `raymoval clean` if `sequence` has no labels

@@ -27,7 +27,7 @@ std::string fact(const std::string& name, const std::string& value, const std::s
          (more.empty() ? "" : "<small>" + html_text(more) + "</small>") + "</dd></div>\n";
 }
 
-std::string chart_html(const ChartDrawing& chart) {
+std::string chart_html(const Chart& chart) {
   return chart.empty() ? "" : "<div class=\"chart\">" + chart.svg("") + "</div>\n";
 }
 
@@ -173,7 +173,7 @@ std::string cells_html(const ReportContent& content) {
 }
 
 std::string confidence_html(const ReportContent& content) {
-  const ChartDrawing chart = reliability_chart(*content.results);
+  const Chart chart = reliability_chart(*content.results);
   if (chart.empty()) return "";
   std::string html = "<div class=\"charts\">\n" + chart_html(chart) + "</div>\n";
   for (const TextTable& table : reliability_tables(*content.results)) html += html_table(table);

@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "benchmark/picture/charts/charts.h"
+#include "benchmark/report/html.h"
+#include "benchmark/report/pack.h"
 #include "benchmark/report/page_files.h"
-#include "benchmark/report/page_parts.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
@@ -181,7 +182,51 @@ std::string subtitle(const RunResults& results) {
          join(results.protocols);
 }
 
+/// All before <body>.
+std::string head_html(const std::string& title) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<meta name=\"generator\" content=\"raymoval " RAYMOVAL_VERSION
+         "\">\n"
+         "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+         html_text(title) + "</title>\n<style>\n" + chart_style() +
+         std::string(page_file("page.css")) + "</style>\n</head>\n";
+}
+
+/// @param with_view whether the page has the 3-D view, whose licence it then names
+std::string footer_html(bool with_view) {
+  std::string html =
+      "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.";
+  if (with_view) {
+    html += " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
+            ", under the MIT licence.</p>\n<details><summary>Licence of three.js</summary>\n<pre>" +
+            html_text(std::string(page_file("three_licence.txt"))) + "</pre></details";
+  } else {
+    html += "</p";
+  }
+  return html + "></footer>\n";
+}
+
+/// The scripts of a page, and what they read.
+/// @param scenes the heads of `PackedScene`s; none: there is no view
+/// @param streams those of all scenes
+std::string scripts_html(const std::vector<std::string>& scenes,
+                         const std::vector<std::pair<std::string, std::string>>& streams) {
+  std::string html = "<script>\n" + std::string(page_file("page.js")) + "</script>\n";
+  if (scenes.empty()) return html;
+  for (const auto& [id, text] : streams) {
+    html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
+  }
+  html += "<script type=\"application/json\" id=\"scenes\">" + page_data(scenes) +
+          "</script>\n<script>\n" + std::string(page_file("view.js")) + "</script>\n";
+  return html;
+}
+
 }  // namespace
+
+bool has_page_view() {
+  return !page_file("view.js").empty();
+}
 
 Page make_page(const PageRequest& request) {
   const RunResults& results = *request.content.results;
@@ -198,6 +243,21 @@ Page make_page(const PageRequest& request) {
   html += "</main>\n" + footer_html(!points.scenes.empty()) +
           scripts_html(points.scenes, points.streams) + "</body>\n</html>\n";
   return {std::move(html), std::move(points.warnings)};
+}
+
+std::string map_page(const Scene& scene, const std::string& title,
+                     const std::vector<std::string>& lines) {
+  const PackedScene packed = pack_scene(scene, 0);
+  return head_html(title) +
+         "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
+         html_name(title) + "</h1>\n<button type=\"button\" id=\"theme\">Dark</button></header>\n" +
+         "<main id=\"main\">\n" +
+         html_section({"points", "Map",
+                       std::string(page_file("view.html")) +
+                           "<noscript><p>The 3-D view needs JavaScript.</p>"
+                           "</noscript>\n"}) +
+         html_section({"facts", "What was done", html_list(lines)}) + "</main>\n" +
+         footer_html(true) + scripts_html({packed.head}, packed.streams) + "</body>\n</html>\n";
 }
 
 }  // namespace raymoval

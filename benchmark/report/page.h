@@ -4,11 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/report/scene.h"
 #include "benchmark/report/sections.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "core/progress.h"
 
 namespace raymoval {
+
+/// Whether the program was built with the 3-D view.
+bool has_page_view();
 
 /// What a page is made of.
 struct PageRequest {
@@ -34,5 +38,11 @@ struct Page {
 /// Makes the report as one HTML file that needs nothing else.
 /// @throws Cancelled; DataError if `points_needed` and a sequence cannot be opened
 Page make_page(const PageRequest& request);
+
+/// A cleaned map as one HTML file that needs nothing else: the 3-D view of what was kept and what
+/// was removed, and below it some lines of text.
+/// @param scene of a `MapSceneBuilder`
+std::string map_page(const Scene& scene, const std::string& title,
+                     const std::vector<std::string>& lines);
 
 }  // namespace raymoval

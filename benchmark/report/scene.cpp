@@ -2,10 +2,15 @@
 #include "benchmark/report/scene.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <utility>
 
-#include "benchmark/report/scene_points.h"
 #include "benchmark/result/removals/reasons.h"
+#include "core/morton.h"
 #include "core/scan/local_frame.h"
 #include "eval/columns/removal_tally.h"
 
@@ -14,6 +19,76 @@ namespace {
 
 /// The share of the points that may be wrongly classified ones.
 constexpr double kErrorShare = 0.6;
+
+/// The share of the points that may be removed ones.
+constexpr double kRemovedShare = 0.4;
+
+/// Ids of SemanticKITTI for what stands and what moves.
+constexpr std::uint16_t kKeptId = 9, kRemovedId = 251;
+
+/// The Morton code of a point: the bits of its coordinates in turn, z on top.
+using Morton = std::array<std::uint64_t, 2>;
+
+Morton morton_of(const ShownPoint& point) {
+  Morton code{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto biased = static_cast<std::uint64_t>(std::int64_t{point.step[axis]} + (1LL << 31));
+    code[0] |= spread_bits(biased >> 21) << axis;
+    code[1] |= spread_bits(biased) << axis;
+  }
+  return code;
+}
+
+/// The position of a point in steps, of which `kStepsPerVoxel` are an edge of a `kPageVoxel`. It
+/// lies within the voxel of `voxel_index`, whatever rounding does.
+/// @throws DataError beyond what 32 bits hold
+std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max() - kStepsPerVoxel;
+  std::array<std::int32_t, 3> steps{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = world[axis] * (1.0 / kPageVoxel);
+    const double voxel = std::floor(place);
+    const double inside = world[axis] / kPageVoxel - voxel;
+    const double step =
+        std::clamp(std::floor(inside * kStepsPerVoxel), 0.0, double{kStepsPerVoxel - 1});
+    const double steps_from_zero = voxel * kStepsPerVoxel + step;
+    if (!(std::abs(steps_from_zero) <= kMost)) {
+      throw_voxel_out_of_range(world.x(), world.y(), world.z(), kPageVoxel);
+    }
+    steps[axis] = static_cast<std::int32_t>(steps_from_zero);
+  }
+  return steps;
+}
+
+/// Puts the points of both sets, and their verdicts, into `scene`, in an order in which neighbours
+/// in space are near each other.
+void gather_points(const ReportPoints& first, const ReportPoints& second, Scene& scene) {
+  const std::size_t count = first.size() + second.size();
+  const auto set_of = [&](std::size_t i) -> std::pair<const ReportPoints&, std::size_t> {
+    if (i < first.size()) return {first, i};
+    return {second, i - first.size()};
+  };
+  std::vector<Morton> codes(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [set, place] = set_of(i);
+    codes[i] = morton_of(set.points()[place]);
+  }
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return codes[a] != codes[b] ? codes[a] < codes[b] : a < b;
+  });
+  scene.points.reserve(count);
+  scene.verdicts.assign(scene.cells.size(), std::vector<std::uint8_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [set, place] = set_of(order[i]);
+    scene.points.push_back(set.points()[place]);
+    const std::span<const std::uint8_t> verdict = set.verdict(place);
+    for (std::size_t cell = 0; cell < verdict.size(); ++cell) {
+      scene.verdicts[cell][i] = verdict[cell];
+    }
+  }
+}
 
 /// What a method did to one scan.
 struct ScanVerdicts {
@@ -128,6 +203,48 @@ Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::s
     if (progress != nullptr) progress->advance();
   }
   return builder.finish();
+}
+
+MapSceneBuilder::MapSceneBuilder(const std::string& sequence, const std::string& method,
+                                 const Pose& T_upright_world, std::size_t limit)
+    : limit_(limit),
+      removed_(static_cast<std::size_t>(kRemovedShare * static_cast<double>(limit)), 1,
+               kStepsPerVoxel),
+      kept_(limit, 1, kStepsPerVoxel) {
+  scene_.sequence = sequence;
+  scene_.T_upright_world = T_upright_world;
+  scene_.is_unlabelled = true;
+  scene_.cells.push_back({method, false, {}, {}, {}});
+  scene_.counts.resize(1);
+  scene_.labels = {{kKeptId, "kept", LabelClass::kStatic},
+                   {kRemovedId, "removed", LabelClass::kMoving}};
+}
+
+void MapSceneBuilder::add_scan(const std::string& name, const Eigen::Vector3d& sensor) {
+  scene_.scans.push_back(name);
+  scene_.trajectory.push_back(scene_.T_upright_world * sensor);
+}
+
+void MapSceneBuilder::add_point(const Eigen::Vector3d& world, bool removed) {
+  ++scene_.points_in_range;
+  ++(removed ? scene_.counts[0].true_positive : scene_.counts[0].kept_static);
+  const auto scan = static_cast<std::uint32_t>(scene_.scans.size() - 1);
+  const std::array<std::uint8_t, 1> verdict = {static_cast<std::uint8_t>(removed ? 1 : 0)};
+  const ShownPoint shown{steps_of(scene_.T_upright_world * world), scan,
+                         removed ? kRemovedId : kKeptId};
+  if (removed) {
+    removed_.add(shown, scan + 1, verdict);
+  } else {
+    kept_.add(shown, 0, verdict);
+  }
+}
+
+Scene MapSceneBuilder::finish() {
+  kept_.reduce(limit_ - removed_.size());
+  scene_.error_cell = removed_.cell();
+  scene_.other_cell = kept_.cell();
+  gather_points(removed_, kept_, scene_);
+  return std::move(scene_);
 }
 
 }  // namespace raymoval

@@ -37,32 +37,19 @@ ProtocolRecord protocol_record(const ScoredSequence& scored, std::size_t i) {
   return {scored.protocol_name(i), protocol.name(), protocol.version(), protocol.options()};
 }
 
-void check_cancelled(const CellTask& task) {
+void check_cancelled(const MethodTask& task) {
   if (task.cancel != nullptr && task.cancel->load()) throw Cancelled();
 }
 
-void score_all(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
-  check_cancelled(task);
-  SequenceScores scores = task.scored->score(answer.masks, task.cancel, answer.confidence);
-  for (std::size_t i = 0; i < scores.protocols.size(); ++i) {
-    ProtocolResult& result = scores.protocols[i];
-    cell.scores.push_back({protocol_record(*task.scored, i), std::move(result.counts),
-                           std::move(result.rates), std::move(result.warnings),
-                           std::move(result.intervals), std::move(result.by_scan)});
-  }
-  cell.columns = ColumnRecord{kColumnsVersion, std::move(scores.columns)};
-  cell.reliability = scores.reliability;
-}
-
-void write_cell_removals(const CellTask& task, const MethodAnswer& answer) {
-  Progress* progress = task.scored->progress();
-  const ScanSource& scans = *task.scored->sequence().scans;
-  if (progress != nullptr) progress->begin("writing removals", scans.size());
-  write_removals(task.removals, scans, answer.masks, [&] {
+void write_cell_removals(const std::filesystem::path& removals, const MethodTask& task,
+                         const MethodAnswer& answer) {
+  const ScanSource& scans = *task.sequence->scans;
+  if (task.progress != nullptr) task.progress->begin("writing removals", scans.size());
+  write_removals(removals, scans, answer.masks, [&] {
     check_cancelled(task);
-    if (progress != nullptr) progress->advance();
+    if (task.progress != nullptr) task.progress->advance();
   });
-  write_reasons(task.removals, scans, answer.reasons);
+  write_reasons(removals, scans, answer.reasons);
 }
 
 /// @throws MethodError unless the child gave one mask for each scan
@@ -72,19 +59,29 @@ void check_masks(const MethodAnswer& answer, const ScanSource& scans) {
                                 answer.masks.size(), scans.size()));
 }
 
-void fill_cell(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
-  check_masks(answer, *task.scored->sequence().scans);
+void score_masks(ScoredSequence& scored, const MethodTask& task, const MethodAnswer& answer,
+                 Cell& cell) {
+  check_masks(answer, *task.sequence->scans);
   cell.measured = answer.measured;
   cell.masks = MaskRecord{mask_digest(answer.masks),
                           static_cast<std::int64_t>(answer.masks.removed_count())};
-  score_all(task, answer, cell);
+  check_cancelled(task);
+  SequenceScores scores = scored.score(answer.masks, task.cancel, answer.confidence);
+  for (std::size_t i = 0; i < scores.protocols.size(); ++i) {
+    ProtocolResult& result = scores.protocols[i];
+    cell.scores.push_back({protocol_record(scored, i), std::move(result.counts),
+                           std::move(result.rates), std::move(result.warnings),
+                           std::move(result.intervals), std::move(result.by_scan)});
+  }
+  cell.columns = ColumnRecord{kColumnsVersion, std::move(scores.columns)};
+  cell.reliability = scores.reliability;
 }
 
 /// What a control answers is known from the labels, so no process is started and no scan is read
 /// for it. It is scored like any other answer.
-MethodAnswer answer_of_control(const CellTask& task, KnownAnswer known) {
+MethodAnswer answer_of_control(ScoredSequence& scored, KnownAnswer known) {
   const auto started = std::chrono::steady_clock::now();
-  const MaskStore& moving = task.scored->moving_points();
+  const MaskStore& moving = scored.moving_points();
   MethodAnswer answer;
   answer.masks = MaskStore(moving.size());
   for (std::size_t i = 0; i < moving.size(); ++i) {
@@ -98,19 +95,10 @@ MethodAnswer answer_of_control(const CellTask& task, KnownAnswer known) {
   return answer;
 }
 
-MethodAnswer answer_of_method(const CellTask& task) {
+MethodAnswer answer_of_method(ScoredSequence& scored, const MethodTask& task) {
+  if (task.place == nullptr) return run_method(task);
   const auto known = known_answer(task.request->method.entry->name);
-  if (known && task.place != nullptr) return answer_of_control(task, *known);
-  const MethodTask method{&task.scored->sequence(),
-                          task.request,
-                          task.scored->threads(),
-                          task.scored->progress(),
-                          task.cancel,
-                          !task.removals.empty(),
-                          task.is_alone,
-                          task.with_confidence};
-  return task.place == nullptr ? run_method(method)
-                               : run_method_apart(method, *task.place, task.limits);
+  return known ? answer_of_control(scored, *known) : run_method_apart(task);
 }
 
 /// Says what of an external method is no longer as the key says, since anybody may change its
@@ -129,30 +117,13 @@ std::string changed_program(const MethodEntry& entry) {
   }
 }
 
-/// The method's answer. Its status is only kOk if the method and what it read are those of the key.
-MethodAnswer method_answer(const CellTask& task) {
-  MethodAnswer answer;
-  answer.status = CellStatus::kFailed;
-  answer.reason = changed_program(*task.request->method.entry);
-  if (!answer.reason.empty()) return answer;
-  answer = answer_of_method(task);
-  if (answer.status != CellStatus::kOk) return answer;
-  answer.reason = changed_program(*task.request->method.entry);
-  if (!answer.reason.empty()) answer.status = CellStatus::kFailed;
-  const std::string change = task.scored->data_change(answer.loaded ? &*answer.loaded : nullptr);
-  if (!change.empty()) {
-    answer.status = CellStatus::kBadData;
-    answer.reason = change;
-  }
-  return answer;
-}
-
 /// Scores an answer. A fault of the method or the data makes the cell one without a result.
-void score_answer(const CellTask& task, const MethodAnswer& answer, Cell& cell) {
+void score_answer(ScoredSequence& scored, const MethodTask& task, const MethodAnswer& answer,
+                  Cell& cell) {
   try {
-    fill_cell(task, answer, cell);
+    score_masks(scored, task, answer, cell);
     // Scoring reads the data once more.
-    const std::string change = task.scored->data_change(nullptr);
+    const std::string change = scored.data_change(nullptr);
     if (!change.empty()) cell.fail(CellStatus::kBadData, change);
   } catch (const Cancelled&) {
     throw;
@@ -179,25 +150,39 @@ std::string current_key(ScoredSequence& scored, const MethodRequest& request) {
   return cell_key(cell_identity(scored, request));
 }
 
-Cell execute_cell(const CellTask& task) {
-  CellIdentity identity = cell_identity(*task.scored, *task.request);
-  Cell cell{task.scored->sequence().name, task.request->name, cell_key(identity)};
+MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task) {
+  MethodAnswer answer;
+  answer.status = CellStatus::kFailed;
+  answer.reason = changed_program(*task.request->method.entry);
+  if (!answer.reason.empty()) return answer;
+  answer = answer_of_method(scored, task);
+  if (answer.status != CellStatus::kOk) return answer;
+  answer.reason = changed_program(*task.request->method.entry);
+  if (!answer.reason.empty()) answer.status = CellStatus::kFailed;
+  const std::string change = scored.data_change(answer.loaded ? &*answer.loaded : nullptr);
+  if (!change.empty()) {
+    answer.status = CellStatus::kBadData;
+    answer.reason = change;
+  }
+  return answer;
+}
+
+Cell execute_cell(ScoredSequence& scored, const MethodTask& task,
+                  const std::filesystem::path& removals) {
+  CellIdentity identity = cell_identity(scored, *task.request);
+  Cell cell{task.sequence->name, task.request->name, cell_key(identity)};
   cell.method = std::move(identity.method);
   cell.data = std::move(identity.data);
-  const MethodAnswer answer = method_answer(task);
+  const MethodAnswer answer = method_answer(scored, task);
   cell.output_tail = answer.output_tail;
   if (answer.status != CellStatus::kOk) {
     cell.fail(answer.status, answer.reason);
     return cell;
   }
-  score_answer(task, answer, cell);
+  score_answer(scored, task, answer, cell);
   // A disk that is full is no fault of the method: it ends the run.
-  if (cell.ok() && !task.removals.empty()) write_cell_removals(task, answer);
+  if (cell.ok() && !removals.empty()) write_cell_removals(removals, task, answer);
   return cell;
-}
-
-MethodAnswer repeat_cell(const CellTask& task) {
-  return method_answer(task);
 }
 
 Cell unreadable_cell(const std::string& sequence, const MethodRequest& request,

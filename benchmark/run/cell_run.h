@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <string>
 
@@ -9,22 +8,8 @@
 #include "benchmark/result/cell.h"
 #include "benchmark/run/scored_sequence.h"
 #include "benchmark/suite/suite.h"
-#include "core/process/child_process.h"
 
 namespace raymoval {
-
-/// What it takes to run a method on a sequence and to score it.
-struct CellTask {
-  ScoredSequence* scored = nullptr;
-  const MethodRequest* request = nullptr;
-  std::filesystem::path removals;  ///< Folder for label files; none are written if it is empty.
-  const std::atomic<bool>* cancel = nullptr;
-  /// Where a process of its own opens the sequence. If it is null, the method runs in this process.
-  const SequenceRequest* place = nullptr;
-  ChildLimits limits;
-  bool is_alone = true;  ///< Whether no other cell runs meanwhile, so that a core may be idle.
-  bool with_confidence = false;  ///< Whether the method is asked how sure it is, if it can say.
-};
 
 /// What the cell's key is made from. @throws DataError if the data cannot be read
 CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request);
@@ -34,11 +19,14 @@ std::string current_key(ScoredSequence& scored, const MethodRequest& request);
 
 /// Runs the method, checks its answer and scores it. It does not throw for a fault of the method or
 /// the data: that is a cell with a status and a reason.
+/// @param removals folder for label files; none are written if it is empty
 /// @throws Cancelled, or DataError if the removals cannot be written
-Cell execute_cell(const CellTask& task);
+Cell execute_cell(ScoredSequence& scored, const MethodTask& task,
+                  const std::filesystem::path& removals = {});
 
-/// Runs the method once more, for its time. @throws Cancelled
-MethodAnswer repeat_cell(const CellTask& task);
+/// Runs the method, in this process or in a child. The status is only kOk if the method and what it
+/// read are those of the key. @throws Cancelled
+MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task);
 
 /// The cell of a sequence that cannot be read: status "bad_data".
 Cell unreadable_cell(const std::string& sequence, const MethodRequest& request,

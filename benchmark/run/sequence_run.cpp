@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
 #include <utility>
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/run_record_json.h"
-#include "benchmark/run/side_by_side.h"
 #include "core/process/proc_files.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
@@ -45,6 +47,30 @@ void check_cancelled(const RunOptions& options) {
 }
 
 }  // namespace
+
+void run_side_by_side(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> errors(count);
+  const auto work_off = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        errors[i] = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  {
+    const std::size_t threads = std::min(static_cast<std::size_t>(std::max(jobs, 1)), count);
+    std::vector<std::jthread> others;  // They are waited for at their end.
+    while (others.size() + 1 < threads) others.emplace_back(work_off);
+    work_off();
+  }
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+}
 
 SequenceRuns::SequenceRuns(OpenedSuite& suite, JoinedFolder& folder)
     : suite_(suite), folder_(folder), lines_(cell_lines(suite)), finished_(suite.cells().size()) {}
@@ -161,12 +187,15 @@ bool SequenceRuns::may_run(CellIndex index) const {
   return suite_.is_selected(index) && !suite_.options().collect;
 }
 
-CellTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
+MethodTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const {
   const RunOptions& options = suite_.options();
-  CellTask task{&scored, &suite_.method(index), {}, options.cancel, nullptr, {}};
-  task.is_alone = !is_side_by_side();
-  task.with_confidence = options.confidence;
-  if (options.keep_removals) task.removals = suite_.store().new_removals(suite_.name(index));
+  MethodTask task{&scored.sequence(), &suite_.method(index)};
+  task.options.threads = scored.threads();
+  task.options.with_reasons = options.keep_removals;
+  task.options.with_confidence = options.confidence;
+  task.options.loads_ahead = !is_side_by_side();  // Else no core is idle.
+  task.progress = scored.progress();
+  task.cancel = options.cancel;
   if (options.isolate) {
     task.place = &suite_.suite().sequences[index.sequence];
     task.limits = limits_for(suite_.suite(), scored.sequence().scans->size(), options.jobs);
@@ -190,10 +219,11 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
                              stored.why));
     }
     show_running(index, "");
-    const CellTask task = task_for(scored, index);
-    Cell cell = execute_cell(task);
+    std::filesystem::path removals;
+    if (suite_.options().keep_removals) removals = suite_.store().new_removals(suite_.name(index));
+    Cell cell = execute_cell(scored, task_for(scored, index), removals);
     mark_times(cell.measured);
-    suite_.store().keep(cell, task.removals);
+    suite_.store().keep(cell, removals);
     finish(index, std::move(cell), false);
   }
 }
@@ -221,7 +251,7 @@ std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, Cell
                                                     int round) {
   check_cancelled(suite_.options());
   show_running(index, fmt::format(", repeat {}", round));
-  const MethodAnswer answer = repeat_cell(task_for(scored, index));
+  const MethodAnswer answer = method_answer(scored, task_for(scored, index));
   std::optional<Measurement> measured = answer.measured;
   mark_times(measured);
   if (answer.status != CellStatus::kOk) {

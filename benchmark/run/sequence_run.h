@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,6 +16,11 @@
 #include "benchmark/tables/cell_line.h"
 
 namespace raymoval {
+
+/// Does `work(i)` for each i from 0 to count - 1, on `jobs` threads of which the caller's is one. A
+/// thread that is free takes the lowest number that is left. After an exception nothing more is
+/// taken; that of the lowest number is thrown when all threads have ended.
+void run_side_by_side(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// A cell of a run with the further runs of its method.
 struct FinishedCell {
@@ -68,7 +75,7 @@ class SequenceRuns {
   void repeat(ScoredSequence& scored, CellIndex index, int round);
   std::optional<RepeatRecord> run_again(ScoredSequence& scored, CellIndex index, int round);
   void fail_repeat(CellIndex index, int round, CellStatus status, const std::string& reason);
-  [[nodiscard]] CellTask task_for(ScoredSequence& scored, CellIndex index) const;
+  [[nodiscard]] MethodTask task_for(ScoredSequence& scored, CellIndex index) const;
   void show_running(CellIndex index, const std::string& round);
   void show_stopped(CellIndex index);
   void finish(CellIndex index, Cell cell, bool was_there);

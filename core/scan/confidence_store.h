@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <vector>
+
+#include "core/scan/scan_spool.h"
 
 namespace raymoval {
 
@@ -23,12 +22,9 @@ inline float confidence_of_steps(std::uint8_t steps) {
 
 /// How sure a method is that each point moves: steps by scan, a byte for each point.
 struct ConfidenceStore {
-  std::vector<std::string> steps;  ///< Empty if no method was asked, or it has none.
+  ScanSpool steps;  ///< Of no scan if no method was asked, or it has no confidence.
 
-  [[nodiscard]] bool empty() const { return steps.empty(); }
-  [[nodiscard]] std::uint8_t at(std::size_t scan, std::size_t point) const {
-    return static_cast<std::uint8_t>(steps[scan][point]);
-  }
+  [[nodiscard]] bool empty() const { return steps.size() == 0; }
 };
 
 }  // namespace raymoval

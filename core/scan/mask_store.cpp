@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
 
 namespace raymoval {
 namespace {
@@ -22,6 +25,7 @@ constexpr std::array<Eight, 256> kMasksOfBits = [] {
 }();
 
 constexpr std::size_t kBits = 64;
+constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
 constexpr std::uint64_t kAllBits = ~std::uint64_t{0};
 
 /// How many words hold so many bits.
@@ -45,28 +49,32 @@ std::uint64_t bits_of(const std::uint8_t* mask, std::size_t points) {
 void MaskStore::set(std::size_t scan, const Mask& mask) {
   const std::size_t words = words_for(mask.size());
   std::vector<std::uint64_t> packed(2 * words_for(words), 0);
+  std::size_t removed = 0;
   for (std::size_t i = 0; i < words; ++i) {
     const std::size_t first = i * kBits;
     const std::uint64_t bits = bits_of(mask.data() + first, std::min(kBits, mask.size() - first));
     if (bits == 0) continue;
+    removed += static_cast<std::size_t>(std::popcount(bits));
     packed[i / kBits * 2 + (bits == kAllBits ? 1 : 0)] |= std::uint64_t{1} << (i % kBits);
     if (bits != kAllBits) packed.push_back(bits);
   }
-  // By a copy, which has no room to grow.
-  scans_[scan] = {true, mask.size(), std::vector<std::uint64_t>(packed)};
+  spool_.put(scan, {reinterpret_cast<const char*>(packed.data()), packed.size() * kWordBytes});
+  counts_[scan] = {mask.size(), removed};
 }
 
 Mask MaskStore::get(std::size_t scan) const {
-  const Packed& packed = scans_[scan];
-  Mask mask(packed.points);
+  const std::string bytes = spool_.get(scan);
+  std::vector<std::uint64_t> packed(bytes.size() / kWordBytes);
+  std::memcpy(packed.data(), bytes.data(), packed.size() * kWordBytes);
+  Mask mask(counts_[scan].points);
   const std::size_t words = words_for(mask.size());
   std::size_t next = 2 * words_for(words);
   for (std::size_t i = 0; i < words; ++i) {
-    const std::uint64_t* const group = packed.words.data() + i / kBits * 2;
+    const std::uint64_t* const group = packed.data() + i / kBits * 2;
     std::uint8_t* const points = mask.data() + i * kBits;
     if (has_bit(group[1], i % kBits)) std::fill_n(points, kBits, std::uint8_t{1});
     if (!has_bit(group[0], i % kBits)) continue;
-    const std::uint64_t bits = packed.words[next++];
+    const std::uint64_t bits = packed[next++];
     const std::size_t count = std::min(kBits, mask.size() - i * kBits);
     for (std::size_t first = 0; first < count; first += 8) {
       const Eight& eight = kMasksOfBits[bits >> first & 0xFFU];
@@ -76,26 +84,20 @@ Mask MaskStore::get(std::size_t scan) const {
   return mask;
 }
 
+std::size_t MaskStore::point_count() const {
+  std::size_t points = 0;
+  for (const Counts& counts : counts_) points += counts.points;
+  return points;
+}
+
 std::size_t MaskStore::removed_count() const {
-  std::size_t count = 0;
-  for (const Packed& packed : scans_) {
-    const std::size_t groups = words_for(words_for(packed.points));
-    for (std::size_t i = 0; i < packed.words.size(); ++i) {
-      const auto bits = static_cast<std::size_t>(std::popcount(packed.words[i]));
-      if (i >= 2 * groups) {
-        count += bits;
-      } else if (i % 2 == 1) {
-        count += bits * kBits;
-      }
-    }
-  }
-  return count;
+  std::size_t removed = 0;
+  for (const Counts& counts : counts_) removed += counts.removed;
+  return removed;
 }
 
 std::size_t MaskStore::bytes() const {
-  std::size_t bytes = scans_.capacity() * sizeof(Packed);
-  for (const Packed& packed : scans_) bytes += packed.words.capacity() * sizeof(std::uint64_t);
-  return bytes;
+  return counts_.size() * sizeof(Counts) + spool_.bytes();
 }
 
 }  // namespace raymoval

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/scan/scan.h"
+#include "core/scan/scan_spool.h"
 
 namespace raymoval {
 
@@ -14,29 +15,33 @@ namespace raymoval {
 /// methods take much less than a bit per point, those that keep or remove everything next to none.
 class MaskStore {
  public:
+  /// Keeps the masks in memory.
   MaskStore() = default;
-  explicit MaskStore(std::size_t scan_count) : scans_(scan_count) {}
-  [[nodiscard]] std::size_t size() const { return scans_.size(); }
-  [[nodiscard]] bool has(std::size_t scan) const { return scans_[scan].filled; }
+  explicit MaskStore(std::size_t scan_count) : MaskStore(ScanSpool(scan_count)) {}
+  /// Keeps the masks in `spool`, which is empty.
+  explicit MaskStore(ScanSpool spool) : counts_(spool.size()), spool_(std::move(spool)) {}
+  [[nodiscard]] std::size_t size() const { return counts_.size(); }
+  [[nodiscard]] bool has(std::size_t scan) const { return spool_.has(scan); }
   /// Keeps the mask of scan `scan`. Different scans may be set from different threads.
   void set(std::size_t scan, const Mask& mask);
   /// The mask of scan `scan`; empty if none was set (see `has`).
   [[nodiscard]] Mask get(std::size_t scan) const;
-  [[nodiscard]] std::size_t point_count(std::size_t scan) const { return scans_[scan].points; }
+  [[nodiscard]] std::size_t point_count(std::size_t scan) const { return counts_[scan].points; }
+  /// Of all scans.
+  [[nodiscard]] std::size_t point_count() const;
   [[nodiscard]] std::size_t removed_count() const;
   /// What the masks take in memory.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// Points stand in words of 64. Words in which all bits are the same are not kept.
-  struct Packed {
-    bool filled = false;
-    std::size_t points = 0;
-    /// For each 64 words of the mask two: which of them are kept, and which of the others have all
-    /// bits set. Then the words that are kept, in order.
-    std::vector<std::uint64_t> words;
+  struct Counts {
+    std::size_t points = 0, removed = 0;
   };
-  std::vector<Packed> scans_;
+  std::vector<Counts> counts_;
+  /// Points stand in words of 64. Words in which all bits are the same are not kept. For each 64
+  /// words of a mask there are two: which of them are kept, and which of the others have all bits
+  /// set. Then the words that are kept, in order.
+  ScanSpool spool_;
 };
 
 }  // namespace raymoval

@@ -11,11 +11,11 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
+#include "core/files/scratch_folder.h"
 #include "core/text.h"
 #include "datasets/bags/bag.h"
 #include "datasets/bags/bag_file.h"
 #include "datasets/bags/mcap/mcap_bag.h"
-#include "datasets/bags/private_folder.h"
 #include "datasets/bags/ros1/ros1_bag.h"
 #include "datasets/bags/ros2/db3_bag.h"
 #include "datasets/bags/ros2/folder_bag.h"
@@ -79,7 +79,7 @@ class PackedBag : public Bag {
 
  private:
   fs::path path_;
-  PrivateFolder folder_;
+  ScratchFolder folder_{kRecordingFolder};
   std::string problem_;  ///< What is wrong with the packed file, such as a cut end.
   std::unique_ptr<Bag> bag_;
 };

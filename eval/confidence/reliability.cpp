@@ -78,7 +78,7 @@ bool ReliabilityCount::begin_pass(std::size_t slots) {
 
 void ReliabilityCount::read(const CheckedScan& scan, std::size_t slot) {
   slots_[slot] = {};
-  const std::string& steps = confidence_.steps[scan.scan.index];
+  const std::string steps = confidence_.steps.get(scan.scan.index);
   if (steps.size() != scan.scan.size()) {
     throw MethodError("there is a confidence for " + std::to_string(steps.size()) +
                       " points of scan " + std::to_string(scan.scan.index) +

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/files/scratch_folder.h"
 #include "methods/external/manifest.h"
 #include "methods/external/program.h"
 #include "methods/external/sequence_files.h"
-#include "methods/external/working_folder.h"
 
 namespace raymoval {
 namespace external_method {
@@ -39,7 +39,7 @@ class External : public Remover {
       : manifest_(std::move(manifest)), parameters_(std::move(parameters)) {}
 
   void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) override {
-    const WorkingFolder folder(is_folder_kept());
+    const ScratchFolder folder(kMethodFolder, is_folder_kept());
     if (is_folder_kept() && context.progress != nullptr) {
       context.progress->say("the working folder is kept: " + folder.path().string());
     }

@@ -24,7 +24,4 @@ std::optional<std::filesystem::path> external_manifest(const std::string& method
 /// belongs to the program cannot be read
 MethodEntry external_entry(const std::filesystem::path& manifest);
 
-/// Removes the working folders that killed processes of this user have left. It never throws.
-void remove_abandoned_working_folders();
-
 }  // namespace raymoval

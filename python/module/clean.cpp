@@ -3,11 +3,8 @@
 
 #include <utility>
 
-#include "benchmark/process/checked_sink.h"
 #include "benchmark/process/method_run.h"
-#include "benchmark/process/timed_source.h"
 #include "core/parallel.h"
-#include "core/scan/local_frame.h"
 #include "python/module/bindings.h"
 #include "python/module/descriptions.h"
 #include "python/module/interruptible.h"
@@ -17,26 +14,19 @@
 namespace raymoval::python {
 namespace {
 
-/// Runs `remover` as `raymoval clean` does, and keeps its masks.
-MaskStore find_removals(const Sequence& sequence, const std::string& name, Remover& remover,
-                        int threads, const WorkContext& work) {
-  const LocalFrameSource local(*sequence.scans, sequence.method_frame());
-  const TimedSource scans(local);
-  CheckedSink sink(name, scans);
-  RunContext context;
-  context.threads = threads > 0 ? threads : hardware_threads();
-  context.progress = work.progress;
-  context.cancel = work.cancel;
-  remover.run(scans, sink, context);
-  work.progress->end();
-  return sink.finish();
-}
-
 HeldMasks answer(const HeldSequence& held, const std::string& name, Remover& remover, int threads,
                  const py::object& on_progress) {
   HeldMasks masks;
   run_interruptibly(on_progress, [&](const WorkContext& work) {
-    masks.masks = find_removals(*held.sequence, name, remover, threads, work);
+    MethodRequest request;
+    request.name = name;
+    MethodTask task{held.sequence.get(), &request};
+    task.options.threads = threads > 0 ? threads : hardware_threads();
+    task.options.loads_ahead = false;
+    task.progress = work.progress;
+    task.cancel = work.cancel;
+    masks.masks = run_remover(remover, task).masks;
+    work.progress->end();
   });
   if (held.arrays) masks.left_out = held.arrays->left_out();
   return masks;

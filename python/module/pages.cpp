@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
-#include "benchmark/report/map_page.h"
-#include "benchmark/report/map_scene.h"
 #include "benchmark/report/page.h"
-#include "benchmark/report/page_parts.h"
+#include "benchmark/report/scene.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"

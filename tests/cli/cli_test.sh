@@ -415,10 +415,9 @@ expect 0 "" picture shown -o map.png --quiet
 holds "a map is a PNG" is_png map.png
 expect 0 "" picture shown -o detail.png --only 'street/raymoval*' --crop -10:20:-8:8 \
   --resolution 0.25 --quiet
-expect 0 "" picture shown -o range.png --kind range --scan 1 --quiet
 expect 0 "" picture shown -o overview.png --kind overview --sequence street \
   --method raymoval:online --quiet
-for file in detail range overview; do holds "$file is a PNG" is_png $file.png; done
+for file in detail overview; do holds "$file is a PNG" is_png $file.png; done
 cp map.png before.png
 expect 0 "" picture shown -o map.png --quiet --threads 1
 holds "the same run gives the same picture" cmp before.png map.png
@@ -430,21 +429,17 @@ expect 2 "no method has what --kind sweep shows" picture shown -o sweep.svg --ki
 expect 2 "which run" picture -o map.png
 expect 2 "-o FILE.png" picture shown
 expect 2 "no such run folder" picture nowhere -o map.png
-expect 2 "Did you mean 'range'" picture shown -o map.png --kind rang
+expect 2 "Did you mean 'overview'" picture shown -o map.png --kind overvew
 expect 2 ".svg" picture shown -o map.jpg --kind stages
-for format in pdf png; do expect 0 "" picture shown -o rates.$format --kind pr-rr; done
-holds "a chart can be a PDF" grep -q '^%PDF-' rates.pdf
 expect 2 "--only" picture shown -o map.png --method raymoval:online
-expect 2 "--scan goes with --kind range" picture shown -o map.png --scan 1
-expect 2 "frames are 0:2" picture shown -o range.png --kind range --scan 9 --quiet
-expect 2 "expected the number of a frame" picture shown -o range.png --kind range --scan x --quiet
+expect 2 "--crop goes with --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
 expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --crop 5:1:0:1 --quiet
 expect 2 "--crop 1000:2000:1000:2000: no point lies there" \
   picture shown -o map.png --crop 1000:2000:1000:2000 --quiet
 expect 2 "--size" picture shown -o map.png --size 7 --quiet
 expect 2 "coarser --resolution" picture shown -o map.png --resolution 0.0001 --quiet
 expect 2 "fits no cell" picture shown -o map.png --only nothing --quiet
-expect 2 "Did you mean 'street'" picture shown -o range.png --kind range --sequence stret --quiet
+expect 2 "Did you mean 'street'" picture shown -o a.png --kind overview --sequence stret --quiet
 expect 2 "--protocol" picture shown -o rates.svg --kind pr-rr --protocol erasr
 expect 2 "--keep-removals" picture run_scene -o map.png --only '*' --quiet
 expect 2 "nothing but controls" picture run_scene -o map.png --quiet

@@ -11,15 +11,20 @@
 #include "core/scan/packed_mask.h"
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
+#include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
 using nlohmann::json;
 
-TEST_CASE("Masks of any size come back as they were") {
+TEST_CASE("Masks of any size come back as they were, from memory and from a file") {
+  const test::TemporaryFolder folder;
+  const bool in_file = GENERATE(false, true);
   std::mt19937 random(5);
   const std::vector<std::size_t> sizes = {0, 1, 63, 64, 65, 128, 1000};
-  MaskStore store(sizes.size() + 1);
+  const std::size_t scans = sizes.size() + 1;
+  MaskStore store(in_file ? ScanSpool(scans, folder.path() / "map.pcd", "masks")
+                          : ScanSpool(scans));
   std::vector<Mask> masks;
   std::size_t removed = 0;
   for (std::size_t scan = 0; scan < sizes.size(); ++scan) {
@@ -41,6 +46,13 @@ TEST_CASE("Masks of any size come back as they were") {
   CHECK_FALSE(store.has(sizes.size()));  // An empty mask is set, a missing one is not.
   CHECK(store.get(sizes.size()).empty());
   CHECK(store.removed_count() == removed);
+  CHECK(store.point_count() == std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}));
+  CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("A spool whose file cannot be made names the place") {
+  CHECK_THROWS_WITH(ScanSpool(1, "/no/folder/map.pcd", "masks"),
+                    Contains("/no/folder/map.pcd: the file for masks beside it cannot be made"));
 }
 
 TEST_CASE("A mask set again replaces the first") {

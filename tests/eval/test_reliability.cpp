@@ -23,8 +23,11 @@ MemorySequence said_drive() {
   return MemorySequence({first, second});
 }
 
-std::string steps_of(const std::vector<int>& steps) {
-  return {steps.begin(), steps.end()};
+/// @param scans the steps of each scan's points
+ConfidenceStore confidence_of(const std::vector<std::vector<int>>& scans) {
+  ConfidenceStore store;
+  for (const std::vector<int>& steps : scans) store.steps.append({steps.begin(), steps.end()});
+  return store;
 }
 
 }  // namespace
@@ -35,7 +38,7 @@ TEST_CASE("points are counted by what was said of them, and by what moves") {
   input.range_m = {0.0, 50.0};
   input.label_rule.ignored = {99};
   // 250 steps are 1: 24 of them lie below 0.1, and 25 do not.
-  const ConfidenceStore said{{steps_of({24, 250, 250, 250}), steps_of({225, 25})}};
+  const ConfidenceStore said = confidence_of({{24, 250, 250, 250}, {225, 25}});
   for (const int threads : {1, 2}) {
     input.threads = threads;
     ReliabilityCount count(input, said);
@@ -69,8 +72,8 @@ TEST_CASE("the mean gap is over bins alike, and leaves out those of few points")
 TEST_CASE("a confidence that does not fit the scans is an error") {
   const MemorySequence drive = said_drive();
   const EvaluationInput input = drive.input();
-  CHECK_THROWS_AS(ReliabilityCount(input, ConfidenceStore{{"abcd"}}), MethodError);
-  const ConfidenceStore short_scan{{"abc", "ab"}};
+  CHECK_THROWS_AS(ReliabilityCount(input, confidence_of({{1, 2, 3, 4}})), MethodError);
+  const ConfidenceStore short_scan = confidence_of({{1, 2, 3}, {1, 2}});
   ReliabilityCount count(input, short_scan);
   CHECK_THROWS_WITH(run_passes(input, drive.masks(), {&count}),
                     Catch::Matchers::Contains("3 points of scan 0"));

@@ -75,8 +75,8 @@ MethodAnswer answer_of(const Sequence& sequence, const MethodRequest& request, i
   MethodTask task;
   task.sequence = &sequence;
   task.request = &request;
-  task.threads = threads;
-  task.with_reasons = true;
+  task.options.threads = threads;
+  task.options.with_reasons = true;
   return run_method(task);
 }
 

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "benchmark/picture/canvas/png_file.h"
-#include "benchmark/report/map_page.h"
-#include "benchmark/report/page_parts.h"
+#include "benchmark/report/page.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -57,7 +55,7 @@ void MapPictureFile::finish() {
   draw_scale_bar(canvas, kPictureMargin + 10, top + raster_.height() - 12, resolution_,
                  raster_.width() / 3);
   draw_legend(canvas, kPictureMargin, top + raster_.height() + kLegendHeight);
-  file_.append(png_bytes(canvas));
+  file_.append(canvas.png_bytes());
   file_.sync();
 }
 

@@ -6,7 +6,7 @@
 
 #include "benchmark/clean/outputs/clean_output.h"
 #include "benchmark/picture/maps/top_down.h"
-#include "benchmark/report/map_scene.h"
+#include "benchmark/report/scene.h"
 #include "core/files/file_writer.h"
 
 namespace raymoval {

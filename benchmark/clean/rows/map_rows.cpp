@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/scan/confidence_store.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/clouds/las/las_head.h"
 #include "datasets/records/number_types.h"
@@ -196,6 +198,35 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
     turn_normals(scan, result.rows);
   }
   return result;
+}
+
+MapPrecision map_precision(const ScanSource& scans) {
+  MapPrecision precision;
+  precision.origin = lattice_origin(scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (scans.pose(i).translation().cwiseAbs().maxCoeff() > kFarFromOrigin) {
+      precision.coordinates = Coordinates::kDouble;
+    }
+  }
+  return precision;
+}
+
+RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size) {
+  while (layout.find({name}) != nullptr) name = "raymoval_" + name;
+  RecordLayout more = layout;
+  more.add(std::move(name), type, size);
+  return more;
+}
+
+RecordLayout layout_with_confidence(const RecordLayout& layout) {
+  return layout_with_field(layout, "confidence", 'F', sizeof(float));
+}
+
+ScanRows rows_with_confidence(const ScanRows& rows, const RecordLayout& layout,
+                              const std::string& steps) {
+  return rows_with_field(rows, layout, [&](std::size_t i) {
+    return confidence_of_steps(static_cast<std::uint8_t>(steps[i]));
+  });
 }
 
 }  // namespace raymoval

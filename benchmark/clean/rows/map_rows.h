@@ -2,15 +2,28 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstring>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "benchmark/clean/rows/map_precision.h"
 #include "benchmark/clean/rows/row_layout.h"
 #include "core/progress.h"
+#include "core/scan/scan_source.h"
+#include "datasets/clouds/cloud_file.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
+
+/// How a map is written so that coordinates lose no digits.
+struct MapPrecision {
+  /// The origin from which voxels are counted, see `lattice_origin`.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  /// float64 where a sensor is so far from the world's origin that float32 loses a millimetre.
+  Coordinates coordinates = Coordinates::kFloat;
+};
+MapPrecision map_precision(const ScanSource& scans);
 
 /// The points of a scan as rows of a map.
 struct ScanRows {
@@ -58,5 +71,36 @@ class MapRows {
   std::vector<NormalFields> normals_;
   bool is_widened_ = false;
 };
+
+/// `layout` with a field behind it. It is called `name`, or `raymoval_<name>` if there is a field
+/// of that name, which stays as it is.
+/// @param type,size as those of RecordLayout::add
+RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size);
+
+/// Rows of such a layout: `rows`, each with the bytes of `value_of(row)` behind it.
+/// @param layout of `layout_with_field`, whose size is that of a value
+template <class ValueOf>
+ScanRows rows_with_field(const ScanRows& rows, const RecordLayout& layout, ValueOf value_of) {
+  const std::size_t size = rows.rows.size();
+  ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
+  result.rows.las = rows.rows.las;
+  const std::size_t bytes = rows.rows.layout.row_bytes;
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto value = value_of(i);
+    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
+    std::memcpy(result.rows.row(i) + bytes, &value, sizeof value);
+  }
+  return result;
+}
+
+/// `layout` with a float32 field behind it: how sure the method is that a point moves, from 0 to 1.
+/// It is called `confidence`, or `raymoval_confidence` if there is a field of that name, which
+/// stays as it is.
+RecordLayout layout_with_confidence(const RecordLayout& layout);
+
+/// Rows of that layout: `rows`, and the confidence of each.
+/// @param steps of each row's point, see `kConfidenceSteps`
+ScanRows rows_with_confidence(const ScanRows& rows, const RecordLayout& layout,
+                              const std::string& steps);
 
 }  // namespace raymoval

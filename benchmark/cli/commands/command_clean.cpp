@@ -5,20 +5,17 @@
 #include <memory>
 #include <optional>
 
-#include "benchmark/clean/clean_checks.h"
 #include "benchmark/clean/clean_outputs.h"
 #include "benchmark/clean/clean_process.h"
 #include "benchmark/clean/clean_summary.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
-#include "benchmark/process/mask_spool.h"
 #include "benchmark/process/method_run.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_writer.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
-#include "core/scan/local_frame.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
 #include "datasets/clouds/cloud_file.h"
@@ -88,34 +85,21 @@ ConfiguredMethod configured(const CleanFlags& flags) {
   return method;
 }
 
-/// What a method gives, in files without names.
-struct SpooledAnswer {
-  MaskSpool masks;
-  std::optional<ConfidenceSpool> confidence;  ///< If it is asked for.
-
-  SpooledAnswer(const ConfiguredMethod& method, const TimedSource& scans,
-                const std::filesystem::path& beside, bool with_confidence)
-      : masks(method.full_name(), scans, beside) {
-    if (!with_confidence) return;
-    confidence.emplace(method.full_name(), method.entry->confidence, scans, beside);
-  }
-};
-
-void find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
-                   const Sequence& sequence, const TimedSource& scans, SpooledAnswer& answer,
-                   Progress& progress) {
-  const auto remover = make_remover(method, sequence);
-  RunContext context;
-  context.threads = flags.work.thread_count();
-  context.progress = &progress;
-  context.cancel = &interrupt_flag();
-  if (answer.confidence) context.evidence = &*answer.confidence;
-  remover->run(scans, answer.masks, context);
-  answer.masks.check_complete();
-  if (answer.confidence) answer.confidence->check_complete();
+/// What the method removes, in files without names beside the first output.
+MethodAnswer find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
+                           const Sequence& sequence, const CleanPaths& paths, Progress& progress) {
+  const MethodRequest request{method.full_name(), method};
+  MethodTask task{&sequence, &request};
+  task.options.threads = flags.work.thread_count();
+  task.options.with_confidence = flags.confidence;
+  task.options.loads_ahead = false;
+  task.progress = &progress;
+  task.cancel = &interrupt_flag();
+  task.spool_beside = paths.all().front().path;
+  return run_remover(*make_remover(method, sequence), task);
 }
 
-void write_outputs(const ScanSource& scans, const SpooledAnswer& answer, CleaningFacts& facts,
+void write_outputs(const ScanSource& scans, const MethodAnswer& answer, CleaningFacts& facts,
                    CleanOutputs& outputs, Progress& progress) {
   RangeCut& range = facts.range;
   progress.begin("writing the outputs", scans.size());
@@ -124,7 +108,7 @@ void write_outputs(const ScanSource& scans, const SpooledAnswer& answer, Cleanin
     const Scan scan = scans.load(i);
     const Mask mask = range.cut(scan, answer.masks.get(i));
     facts.shares.add(scan, mask);
-    outputs.add(scan, mask, answer.confidence ? answer.confidence->get(i) : std::string());
+    outputs.add(scan, mask, answer.confidence.empty() ? "" : answer.confidence.steps.get(i));
     progress.advance();
   }
   if (range.left_out == answer.masks.point_count()) {
@@ -240,7 +224,7 @@ std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs
 
 /// What was done, a line each.
 std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
-                             const Sequence& sequence, const MaskSpool& masks,
+                             const Sequence& sequence, const MaskStore& masks,
                              const CleaningFacts& facts, const CleanOutputs& outputs) {
   const CleanPaths& paths = facts.paths;
   std::string text = method.full_name() + " removed " + grouped_text(masks.removed_count()) +
@@ -281,11 +265,8 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   const WatchedSequence data = watched(sequence);
   CleanOutputs outputs(paths, writing, data.sequence, progress, interrupt_flag());
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
-  const LocalFrameSource local(*data.sequence.scans, sequence.method_frame());
-  const TimedSource scans(local);
-  SpooledAnswer answer(method, scans, paths.all().front().path, flags.confidence);
-  const MaskSpool& masks = answer.masks;
-  find_removals(flags, method, data.sequence, scans, answer, progress);
+  const MethodAnswer answer = find_removals(flags, method, data.sequence, paths, progress);
+  const MaskStore& masks = answer.masks;
   write_outputs(*data.sequence.scans, answer, facts, outputs, progress);
   facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!is_control(method.entry->name)) {

@@ -5,12 +5,9 @@
 #include <memory>
 
 #include "benchmark/cli/command.h"
-#include "benchmark/picture/canvas/png_file.h"
-#include "benchmark/picture/charts/chart_file.h"
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/picture/maps/overview_picture.h"
-#include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
@@ -22,13 +19,13 @@ namespace {
 struct PictureFlags {
   std::string run, output, kind = "map";
   std::vector<std::string> only;
-  std::string sequence, method, scan, crop, resolution, size, protocol, data;
+  std::string sequence, method, crop, resolution, size, protocol, data;
   bool simulate = false;
   WorkFlags work;
 };
 
 const std::vector<std::string>& kinds() {
-  static const std::vector<std::string> names = {"map",    "range",         "overview", "pr-rr",
+  static const std::vector<std::string> names = {"map",    "overview",      "pr-rr",
                                                  "stages", "accuracy-time", "sweep"};
   return names;
 }
@@ -46,12 +43,11 @@ void check_options(const PictureFlags& flags) {
   } rules[] = {{"--only", !flags.only.empty(), {"map"}},
                {"--crop", !flags.crop.empty(), {"map", "overview"}},
                {"--resolution", !flags.resolution.empty(), {"map"}},
-               {"--size", !flags.size.empty(), {"map", "range", "overview"}},
-               {"--sequence", !flags.sequence.empty(), {"range", "overview"}},
-               {"--method", !flags.method.empty(), {"range", "overview"}},
-               {"--scan", !flags.scan.empty(), {"range"}},
-               {"--data", !flags.data.empty(), {"map", "range", "overview"}},
-               {"--simulate", flags.simulate, {"map", "range", "overview"}},
+               {"--size", !flags.size.empty(), {"map", "overview"}},
+               {"--sequence", !flags.sequence.empty(), {"overview"}},
+               {"--method", !flags.method.empty(), {"overview"}},
+               {"--data", !flags.data.empty(), {"map", "overview"}},
+               {"--simulate", flags.simulate, {"map", "overview"}},
                {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time", "sweep"}}};
   for (const auto& rule : rules) {
     const bool fits =
@@ -68,15 +64,13 @@ void check_flags(const PictureFlags& flags) {
   if (std::find(kinds().begin(), kinds().end(), flags.kind) == kinds().end()) {
     throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
   }
-  const std::vector<std::string> extensions =
-      is_chart(flags.kind) ? chart_extensions() : std::vector<std::string>{".png"};
+  const std::string extension = is_chart(flags.kind) ? ".svg" : ".png";
   if (flags.output.empty()) {
-    throw UsageError("-o FILE" + extensions.front() + " is missing: name the picture's file.");
+    throw UsageError("-o FILE" + extension + " is missing: name the picture's file.");
   }
-  const std::string extension = std::filesystem::path(flags.output).extension().string();
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
-    throw UsageError("-o " + flags.output + ": --kind " + flags.kind + " makes a " +
-                     join(extensions, ", ") + " file. Give the name such an ending.");
+  if (std::filesystem::path(flags.output).extension() != extension) {
+    throw UsageError("-o " + flags.output + ": --kind " + flags.kind + " makes a " + extension +
+                     " file. Give the name this ending.");
   }
   check_options(flags);
   check_folder_of(flags.output);
@@ -125,33 +119,24 @@ const KeptCell& chosen_cell(const PictureFlags& flags, const KeptRun& run) {
 
 Canvas drawn(const PictureFlags& flags, Progress& progress) {
   MapPictureOptions map;
-  RangePictureOptions range;
   OverviewOptions overview;
   map.only = flags.only;
   if (!flags.crop.empty()) overview.crop = map.crop = parse_crop(flags.crop);
   if (!flags.resolution.empty()) map.resolution = parse_positive("--resolution", flags.resolution);
   if (!flags.size.empty()) {
-    map.panel_pixels = range.width = overview.panel_pixels = parse_size(flags.size);
-  }
-  if (!flags.scan.empty()) {
-    range.frame = parse_number<long>(flags.scan);
-    if (!range.frame) {
-      throw UsageError("--scan " + flags.scan + ": expected the number of a frame, such as 30.");
-    }
+    map.panel_pixels = overview.panel_pixels = parse_size(flags.size);
   }
   const OpenContext context{flags.work.thread_count(), &progress, &interrupt_flag()};
   const KeptRun run(flags.run, flags.data, flags.simulate);
   if (flags.kind == "map") return map_picture(run, map, context);
-  const KeptCell& cell = chosen_cell(flags, run);
-  return flags.kind == "range" ? range_picture(run, cell, range, context)
-                               : overview_picture(run, cell, overview, context);
+  return overview_picture(run, chosen_cell(flags, run), overview, context);
 }
 
 /// The chart that was asked for, of a run that has what it shows.
-ChartDrawing charted(const PictureFlags& flags) {
+Chart charted(const PictureFlags& flags) {
   const RunResults results = KeptRun(flags.run, "").results();
   if (flags.kind == "stages") {
-    ChartDrawing drawing = stage_chart(results);
+    Chart drawing = stage_chart(results);
     if (!drawing.empty()) return drawing;
     throw DataError(flags.run + ": no method has times; none finished a cell.");
   }
@@ -161,7 +146,7 @@ ChartDrawing charted(const PictureFlags& flags) {
                      : flags.kind == "sweep" ? sweep_chart
                                              : accuracy_time_chart;
   for (const std::string& protocol : checked.protocols) {
-    ChartDrawing drawing = chart(results, protocol);
+    Chart drawing = chart(results, protocol);
     if (!drawing.empty()) return drawing;
   }
   throw DataError(flags.run + ": no method has what --kind " + flags.kind +
@@ -173,9 +158,9 @@ ExitCode draw(const PictureFlags& flags) {
   Progress progress(flags.work.style());
   try {
     if (is_chart(flags.kind)) {
-      write_chart(output_target(flags.output), charted(flags));
+      write_atomically(output_target(flags.output), charted(flags).svg());
     } else {
-      write_png(output_target(flags.output), drawn(flags, progress));
+      write_atomically(output_target(flags.output), drawn(flags, progress).png_bytes());
     }
   } catch (...) {
     progress.end();
@@ -187,28 +172,24 @@ ExitCode draw(const PictureFlags& flags) {
 
 void add_options(CommandOptions& options, PictureFlags& flags) {
   options.add("run", "RUN", flags.run, "The run folder");
-  options.add(
-      "-o,--output", "FILE", flags.output,
-      "The picture, a .png file; charts may also be .svg or .pdf. An existing file is replaced");
-  options.add(
-      "--kind", "KIND", flags.kind,
-      "map (default), range, overview, pr-rr, stages, accuracy-time or sweep; the last four "
-      "are charts");
+  options.add("-o,--output", "FILE", flags.output,
+              "The picture, a .png file, or of a chart a .svg file. An existing file is replaced");
+  options.add("--kind", "KIND", flags.kind,
+              "map (default), overview, pr-rr, stages, accuracy-time or sweep; the last four "
+              "are charts");
   options.add(
       "--only", "PATTERN", flags.only,
       "map: only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?); "
       "default: all but the controls");
-  options.add("--sequence", "NAME", flags.sequence, "range, overview: which sequence");
-  options.add("--method", "NAME", flags.method, "range, overview: which method");
-  options.add("--scan", "FRAME", flags.scan,
-              "range: the number of the frame (default: the middle one)");
+  options.add("--sequence", "NAME", flags.sequence, "overview: which sequence");
+  options.add("--method", "NAME", flags.method, "overview: which method");
   options.add("--crop", "WINDOW", flags.crop,
               "map, overview: XMIN:XMAX:YMIN:YMAX in metres of the world frame (default: the "
               "sensor's path and 30 m around it)");
   options.add("--resolution", "METRES", flags.resolution,
               "map: metres per pixel (default: --size decides)");
   options.add("--size", "PIXELS", flags.size,
-              "The longer side of a panel, or the width of range images, in pixels");
+              "map, overview: the longer side of a panel in pixels");
   options.add("--protocol", "NAME", flags.protocol,
               "pr-rr, accuracy-time, sweep: the protocol that is shown");
   options.add(
@@ -216,7 +197,7 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
       "Where the sequences are, if they are no longer where the run found them: the folder of a "
       "sequence, or a folder that holds them by name");
   options.add_flag("--simulate", flags.simulate,
-                   "map, range, overview: make scenes of the run that are not in the cache; they "
+                   "map, overview: make scenes of the run that are not in the cache; they "
                    "may be large");
   flags.work.add_to(options);
 }
@@ -225,8 +206,7 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
 
 Command add_picture_command(CommandParser& program) {
   auto flags = std::make_shared<PictureFlags>();
-  CommandOptions options =
-      program.add_command("picture", "Draws a run: maps, range images, charts");
+  CommandOptions options = program.add_command("picture", "Draws a run: maps and charts");
   add_options(options, *flags);
   options.set_footer(
       "Pictures of points need a run with --keep-removals, and its data where the run found it. "
@@ -239,10 +219,9 @@ Command add_picture_command(CommandParser& program) {
       "  raymoval picture out/05 -o maps.png\n"
       "  raymoval picture out/05 -o map.png --only '05/raymoval*' --size 800\n"
       "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"
-      "  raymoval picture out/05 -o scan.png --kind range --method raymoval:offline --scan 30\n"
       "  raymoval picture out/05 -o overview.png --kind overview --method raymoval:offline\n"
       "  raymoval run simulated --out out/simulated\n"
-      "  raymoval picture out/simulated -o rates.pdf --kind pr-rr\n"
+      "  raymoval picture out/simulated -o rates.svg --kind pr-rr\n"
       "  raymoval picture out/simulated -o stages.svg --kind stages");
   return {options.name(), [flags] { return draw(*flags); }};
 }

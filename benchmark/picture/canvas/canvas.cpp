@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/picture/canvas/canvas.h"
 
+#include <cairo-ft.h>
 #include <cairo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <cstdlib>
+#include <new>
 
-#include "benchmark/picture/canvas/font.h"
 #include "core/error.h"
+#include "core/files/file_kind.h"
 #include "core/text.h"
 #include "core/utf8.h"
 
@@ -34,11 +36,55 @@ std::uint32_t* row_of(cairo_surface_t* surface, int y) {
   return reinterpret_cast<std::uint32_t*>(data + y * stride);
 }
 
-}  // namespace
+constexpr const char* kPlaces[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                   "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                   "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                                   "/usr/share/fonts/dejavu/DejaVuSans.ttf"};
 
-void set_source(_cairo* context, const Colour& colour) {
+std::string font_file() {
+  if (const char* given = std::getenv("RAYMOVAL_FONT"); given != nullptr && *given != '\0') {
+    return given;
+  }
+  for (const char* place : kPlaces) {
+    if (is_file(place)) return place;
+  }
+  throw ConfigurationError(
+      "pictures need the font DejaVu Sans, which was not found. Install it (Debian: "
+      "fonts-dejavu-core), or name a TrueType file in RAYMOVAL_FONT.");
+}
+
+cairo_font_face_t* load_font(const std::string& file) {
+  // Both stay until the program ends: cairo reads letters from them whenever it needs one.
+  static FT_Library library = nullptr;
+  FT_Face face = nullptr;
+  if ((library == nullptr && FT_Init_FreeType(&library) != 0) ||
+      FT_New_Face(library, file.c_str(), 0, &face) != 0) {
+    throw ConfigurationError(
+        fmt::format("{}: is no font that can be read; expected a TrueType file.", file));
+  }
+  return cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_TARGET_LIGHT);
+}
+
+/// Makes `context` write in DejaVu Sans, from the file that $RAYMOVAL_FONT names or from where
+/// systems keep it. The file is read once in a process. fontconfig is not asked: the same file
+/// gives the same picture whatever else is installed.
+void choose_font(cairo_t* context, int size) {
+  static cairo_font_face_t* const regular = load_font(font_file());
+  const std::unique_ptr<cairo_font_options_t, void (*)(cairo_font_options_t*)> options(
+      cairo_font_options_create(), cairo_font_options_destroy);
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_SLIGHT);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_face(context, regular);
+  cairo_set_font_options(context, options.get());
+  cairo_set_font_size(context, size);
+}
+
+void set_source(cairo_t* context, const Colour& colour) {
   cairo_set_source_rgb(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
+
+}  // namespace
 
 void CairoRelease::operator()(_cairo* context) const {
   cairo_destroy(context);
@@ -130,41 +176,22 @@ std::string Canvas::fitted(const std::string& text, int size, int most) const {
   return begin + "...";
 }
 
-/// Words in lines that are no wider than `width`.
-std::vector<std::string> Canvas::broken(const std::string& text, int size, int width) const {
-  std::vector<std::string> lines;
-  for (const std::string_view word : split_blanks(text)) {
-    const std::string longer =
-        lines.empty() ? std::string(word) : lines.back() + " " + std::string(word);
-    if (!lines.empty() && text_width(longer, size) <= width) {
-      lines.back() = longer;
-    } else {
-      lines.push_back(fitted(std::string(word), size, width));
-    }
+std::string Canvas::png_bytes() const {
+  std::string bytes;
+  const auto append = [](void* to, const unsigned char* data, unsigned int length) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_status_t status = cairo_status(context());
+  if (status == CAIRO_STATUS_SUCCESS) {
+    status = cairo_surface_write_to_png_stream(cairo_get_target(context()), append, &bytes);
   }
-  return lines;
-}
-
-void Canvas::paragraph(int x, int y, int wide, int high, const std::string& text, int size,
-                       const Colour& colour) {
-  const int pitch = size * 4 / 3;
-  std::vector<std::string> lines = broken(text, size, wide);
-  const auto most = static_cast<std::size_t>(std::max(1, high / pitch));
-  if (lines.size() > most) {
-    lines.resize(most);
-    lines.back() += " ...";
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw InternalError(
+        fmt::format("a picture cannot be coded: {}", cairo_status_to_string(status)));
   }
-  const int total = pitch * static_cast<int>(lines.size());
-  int widest = 0;
-  for (const std::string& line : lines) widest = std::max(widest, text_width(line, size));
-  // Plain ground below, so that the words can be read on a hatched one.
-  const int top = y + (high - total) / 2;
-  fill(x + (wide - widest) / 2 - 6, top - 4, widest + 12, total + 8, kPaper);
-  int baseline = top + size;
-  for (const std::string& line : lines) {
-    this->text(x + wide / 2, baseline, line, size, colour, Align::kCentre);
-    baseline += pitch;
-  }
+  return bytes;
 }
 
 }  // namespace raymoval

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "benchmark/picture/canvas/colours.h"
 
@@ -20,9 +19,6 @@ struct CairoRelease {
   void operator()(_cairo* context) const;
   void operator()(_cairo_surface* surface) const;
 };
-
-/// Makes `context` draw in a colour.
-void set_source(_cairo* context, const Colour& colour);
 
 enum class Align { kLeft, kCentre, kRight };
 
@@ -54,20 +50,17 @@ class Canvas {
   /// @throws ConfigurationError if there is no font
   void text(int x, int y, const std::string& text, int size, const Colour& colour,
             Align align = Align::kLeft);
-  /// Draws centred lines, broken between words. What does not fit is left out.
-  void paragraph(int x, int y, int width, int height, const std::string& text, int size,
-                 const Colour& colour);
 
   /// The width of a text in pixels.
   [[nodiscard]] int text_width(const std::string& text, int size) const;
   /// `text`, or as much of its beginning as fits into `width` with "..." behind it.
   [[nodiscard]] std::string fitted(const std::string& text, int size, int width) const;
 
-  /// What cairo draws with: for content that is drawn elsewhere.
-  [[nodiscard]] _cairo* context() const { return context_.get(); }
+  /// The picture as a PNG file's content. The same pixels give the same bytes.
+  [[nodiscard]] std::string png_bytes() const;
 
  private:
-  [[nodiscard]] std::vector<std::string> broken(const std::string& text, int size, int width) const;
+  [[nodiscard]] _cairo* context() const { return context_.get(); }
 
   std::unique_ptr<_cairo_surface, CairoRelease> surface_;
   std::unique_ptr<_cairo, CairoRelease> context_;

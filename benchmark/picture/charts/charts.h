@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "benchmark/picture/charts/chart_drawing.h"
+#include "benchmark/picture/charts/chart.h"
 #include "benchmark/result/results.h"
 
 namespace raymoval {
@@ -14,30 +14,30 @@ namespace raymoval {
 
 /// Shows what is kept (upwards) against what is removed (to the right). Each sequence has a panel.
 /// There are lines of equal headline rate if that is the harmonic mean of both, and a line joins
-/// the points of a sweep. The drawing is empty if no cell has both rates.
+/// the points of a sweep. The chart is empty if no cell has both rates.
 /// @param protocol its name in the run
-ChartDrawing pr_rr_chart(const RunResults& results, const std::string& protocol);
+Chart pr_rr_chart(const RunResults& results, const std::string& protocol);
 
-/// Shows the milliseconds per scan of each method by stage, as stacked bars. The drawing is empty
+/// Shows the milliseconds per scan of each method by stage, as stacked bars. The chart is empty
 /// if there are no times.
-ChartDrawing stage_chart(const RunResults& results);
+Chart stage_chart(const RunResults& results);
 
-/// Shows which share of the points moves (upwards) against the mean confidence that was said of
-/// them (to the right), a marker for each bin with points, a line for each method that was asked. A
-/// dotted diagonal marks confidences that equal the share. The drawing is empty if no method was
-/// asked.
-ChartDrawing reliability_chart(const RunResults& results);
+/// Shows which share of the points moves (upwards) against the mean confidence of the methods in
+/// them (to the right), a marker for each bin with points, a line for each method with
+/// confidences. A dotted diagonal marks confidences that equal the share. The chart is empty if no
+/// method has confidences.
+Chart reliability_chart(const RunResults& results);
 
 /// Shows, for each sweep over one parameter that is a number, the rates over that parameter: a plot
 /// for what is kept, what is removed and the headline rate, a line for each sequence, and one for
-/// the mean of several. The drawing is empty if there is no such sweep with a result.
+/// the mean of several. The chart is empty if there is no such sweep with a result.
 /// @param protocol its name in the run
-ChartDrawing sweep_chart(const RunResults& results, const std::string& protocol);
+Chart sweep_chart(const RunResults& results, const std::string& protocol);
 
 /// Shows the mean of the headline rate over the sequences against milliseconds per scan
-/// (logarithmic). A line joins the methods that no other one beats in both. The drawing is empty if
+/// (logarithmic). A line joins the methods that no other one beats in both. The chart is empty if
 /// no method has both.
 /// @param protocol its name in the run
-ChartDrawing accuracy_time_chart(const RunResults& results, const std::string& protocol);
+Chart accuracy_time_chart(const RunResults& results, const std::string& protocol);
 
 }  // namespace raymoval

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "benchmark/picture/charts/chart_parts.h"
+#include "benchmark/picture/charts/charts.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -53,7 +53,7 @@ Colour stage_colour(const Bar& bar, std::size_t stage) {
 }
 
 /// The stages' names and times below a bar, in lines. @return their height
-double draw_names(ChartDrawing& chart, const Bar& bar, double y) {
+double draw_names(Chart& chart, const Bar& bar, double y) {
   double x = kMargin, top = y;
   for (std::size_t i = 0; i < bar.stages.size(); ++i) {
     const std::string text = bar.stages[i].name + " " + ms_text(bar.stages[i].ms);
@@ -70,24 +70,23 @@ double draw_names(ChartDrawing& chart, const Bar& bar, double y) {
 }
 
 /// @return the height it takes
-double draw_bar(ChartDrawing& chart, const Bar& bar, const LinearAxis& axis, double y) {
-  const double length = kWidth - 2.0 * kMargin - kTotal;
+double draw_bar(Chart& chart, const Bar& bar, double pixels_per_ms, double y) {
   chart.text(kMargin, y + 12.0, bar.method, "bold");
   const double top = y + 18.0;
   double done = 0.0;
   for (std::size_t i = 0; i < bar.stages.size(); ++i) {
-    const double from = axis.at(done, length);
-    done += bar.stages[i].ms;
-    chart.rectangle(kMargin + from, top, axis.at(done, length) - from, kBar, stage_colour(bar, i),
+    const double width = bar.stages[i].ms * pixels_per_ms;
+    chart.rectangle(kMargin + done, top, width, kBar, stage_colour(bar, i),
                     bar.method + ", " + bar.stages[i].name + ": " + ms_text(bar.stages[i].ms));
+    done += width;
   }
-  chart.text(kMargin + axis.at(done, length) + 6.0, top + 12.0, ms_text(bar.total_ms));
+  chart.text(kMargin + done + 6.0, top + 12.0, ms_text(bar.total_ms));
   return 18.0 + kBar + 8.0 + draw_names(chart, bar, top + kBar + 8.0) + 10.0;
 }
 
 }  // namespace
 
-ChartDrawing stage_chart(const RunResults& results) {
+Chart stage_chart(const RunResults& results) {
   std::vector<Bar> bars;
   double most = 0.0;
   for (const MethodTimes& times : results.times) {
@@ -96,20 +95,19 @@ ChartDrawing stage_chart(const RunResults& results) {
     most = std::max(most, bars.back().length_ms);
   }
   if (bars.empty()) return {};
-  ChartDrawing chart("stages", "Milliseconds per scan by stage",
-                     "A bar for each method, made of its stages in the order in which they run.");
+  Chart chart("stages", "Milliseconds per scan by stage, without reading files",
+              "A bar for each method, made of its stages in the order in which they run.");
   const bool overlap = std::any_of(bars.begin(), bars.end(),
                                    [](const Bar& bar) { return bar.length_ms > bar.total_ms; });
-  chart.text(kMargin, 22.0, "Milliseconds per scan by stage, without reading files", "bold");
   if (overlap) {
     chart.text(kMargin, 38.0,
                "Stages that ran on several threads at once are summed over them; the number beside "
                "a bar is the time that passed.",
                "soft");
   }
-  const LinearAxis axis{0.0, most > 0.0 ? most : 1.0, 1.0};
+  const double pixels_per_ms = (kWidth - 2.0 * kMargin - kTotal) / (most > 0.0 ? most : 1.0);
   double y = kTop + (overlap ? 14.0 : 0.0);
-  for (const Bar& bar : bars) y += draw_bar(chart, bar, axis, y);
+  for (const Bar& bar : bars) y += draw_bar(chart, bar, pixels_per_ms, y);
   chart.set_size(kWidth, y + 4.0);
   return chart;
 }

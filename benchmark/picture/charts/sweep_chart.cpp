@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "benchmark/picture/charts/chart_parts.h"
+#include "benchmark/picture/charts/charts.h"
+#include "benchmark/picture/charts/plot.h"
 #include "core/text.h"
 #include "eval/averages.h"
 #include "eval/protocol_registry.h"
@@ -9,11 +10,11 @@
 namespace raymoval {
 namespace {
 
-constexpr double kPlotSide = 230.0;
-constexpr double kPlotPitch = 304.0;
-constexpr double kPlotRowPitch = 344.0;
-constexpr double kFirstLeft = 56.0;
-constexpr double kFirstTop = 92.0;
+constexpr double kSweepSide = 230.0;  ///< Of a plot.
+constexpr double kSweepPitch = 304.0;
+constexpr double kSweepRowPitch = 344.0;
+constexpr double kSweepLeft = 56.0;
+constexpr double kSweepTop = 92.0;
 
 /// A sweep over one parameter that is a number.
 struct NumberSweep {
@@ -42,21 +43,10 @@ std::vector<NumberSweep> number_sweeps(const RunResults& results) {
   return sweeps;
 }
 
-/// The rates that a row of plots shows: what is kept, what is removed, and the headline.
-std::vector<RateSpec> plotted_rates(const RunResults& results, const std::string& protocol) {
-  const ChartRates rates = chart_rates(results, protocol);
-  std::vector<RateSpec> plotted;
-  for (const auto& rate : {rates.kept, rates.removed, rates.headline}) {
-    if (rate) plotted.push_back(*rate);
-  }
-  return plotted;
-}
-
 /// Values of a rate over the parameter, on one sequence or their mean.
 struct Curve {
-  std::string name;
-  SeriesLook look;
-  std::vector<std::pair<double, double>> points;
+  ChartSeries series;
+  std::vector<PlotPoint> points;
 };
 
 /// A curve for each sequence, and their mean where all of several have a value.
@@ -64,111 +54,76 @@ std::vector<Curve> curves_of(const RunResults& results, const NumberSweep& sweep
                              const std::string& protocol, const std::string& rate) {
   const std::size_t count = results.sequences.size();
   std::vector<Curve> curves;
+  const auto add_point = [&](double value, double at) {
+    Curve& curve = curves.back();
+    curve.points.push_back({value, at,
+                            curve.series.name + " at " + sweep.parameter + " " +
+                                length_text(value) + ": " + rate + " " + rate_text(rate, at)});
+  };
   for (const std::string& sequence : results.sequences) {
-    curves.push_back({sequence, series_look(curves.size() + 1, count + 1), {}});
+    curves.push_back({{sequence, series_look(curves.size() + 1, count + 1), {}}, {}});
     for (const auto& [value, cell] : sweep.points) {
       const ResultRow* row = results.find(sequence, cell, protocol);
       const auto there = row == nullptr ? std::nullopt : row->rate(rate);
-      if (there) curves.back().points.emplace_back(value, *there);
+      if (there) add_point(value, *there);
     }
   }
   if (count < 2) return curves;
-  curves.push_back({"mean", series_look(0, count + 1), {}});
+  curves.push_back({{"mean", series_look(0, count + 1), {}}, {}});
   for (const auto& [value, cell] : sweep.points) {
     const Mean mean = mean_of(results.values(cell, protocol, rate));
-    if (mean.value && mean.segments == count) curves.back().points.emplace_back(value, *mean.value);
+    if (mean.value && mean.segments == count) add_point(value, *mean.value);
   }
   return curves;
 }
 
-bool has_points(const std::vector<Curve>& curves) {
-  return std::any_of(curves.begin(), curves.end(),
-                     [](const Curve& curve) { return !curve.points.empty(); });
+/// Draws one rate over the parameter of a sweep. @return false if it has no value
+bool draw_rate(Chart& chart, const NumberSweep& sweep, const RateSpec& rate,
+               const std::vector<Curve>& curves, const ChartPoint& corner) {
+  double worst = rate.best();
+  bool any = false;
+  for (const Curve& curve : curves) {
+    any = any || !curve.points.empty();
+    for (const PlotPoint& point : curve.points) {
+      if (rate.is_better(worst, point.y)) worst = point.y;
+    }
+  }
+  if (!any) return false;
+  chart.text(corner.x, corner.y - 10.0, axis_title(rate), "bold");
+  Plot plot(chart, corner, {kSweepSide, kSweepSide},
+            axis_between(sweep.points.front().first, sweep.points.back().first),
+            axis_to_best(rate, worst), sweep.parameter, "");
+  for (const Curve& curve : curves) plot.draw_series(curve.series, curve.points, true);
+  return true;
 }
-
-/// One rate over the parameter of a sweep; `left`, `top` is the plot's upper left corner.
-class RatePlot {
- public:
-  RatePlot(ChartDrawing& chart, const NumberSweep& sweep, const RateSpec& rate, double left,
-           double top)
-      : chart_(chart), parameter_(sweep.parameter), rate_(rate), left_(left), top_(top) {
-    across_ = axis_between(sweep.points.front().first, sweep.points.back().first);
-  }
-
-  void draw(const std::vector<Curve>& curves) {
-    double worst = rate_.best();
-    for (const Curve& curve : curves) {
-      for (const auto& [value, rate] : curve.points) {
-        if (rate_.is_better(worst, rate)) worst = rate;
-      }
-    }
-    up_ = axis_to_best(rate_, worst);
-    draw_axes();
-    for (const Curve& curve : curves) draw_curve(curve);
-  }
-
- private:
-  void draw_axes() {
-    draw_scales(chart_, across_, up_, {left_, top_}, kPlotSide);
-    chart_.text(left_ + kPlotSide / 2.0, top_ + kPlotSide + 32.0, parameter_, "middle");
-    chart_.text(left_, top_ - 10.0, axis_title(rate_), "bold");
-  }
-
-  void draw_curve(const Curve& curve) {
-    std::vector<ChartPoint> joined;
-    for (const auto& [value, rate] : curve.points) joined.push_back({to_x(value), to_y(rate)});
-    if (curve.points.size() > 1) chart_.polyline(joined, "joined", curve.look.colour);
-    for (const auto& [value, rate] : curve.points) {
-      chart_.marker(to_x(value), to_y(rate), curve.look,
-                    curve.name + " at " + parameter_ + " " + length_text(value) + ": " +
-                        rate_.name + " " + rate_text(rate_.name, rate));
-    }
-  }
-
-  [[nodiscard]] double to_x(double value) const { return left_ + across_.at(value, kPlotSide); }
-  [[nodiscard]] double to_y(double value) const {
-    return top_ + kPlotSide - up_.at(value, kPlotSide);
-  }
-
-  ChartDrawing& chart_;
-  std::string parameter_;
-  RateSpec rate_;
-  double left_, top_;
-  LinearAxis across_, up_;
-};
 
 }  // namespace
 
-ChartDrawing sweep_chart(const RunResults& results, const std::string& protocol) {
-  const std::vector<RateSpec> rates = plotted_rates(results, protocol);
-  const std::string title = "Rates over a parameter by protocol " + protocol;
-  ChartDrawing chart("sweeps-" + protocol, title,
-                     "A row of plots for each sweep, a plot for each rate, a line for each "
-                     "sequence and their mean. Up is better.");
-  chart.text(16.0, 22.0, title, "bold");
-  double top = kFirstTop;
-  double width = text_width(title) * 1.1;
+Chart sweep_chart(const RunResults& results, const std::string& protocol) {
+  const ChartRates rates(results, protocol);
+  Chart chart("sweeps-" + protocol, "Rates over a parameter by protocol " + protocol,
+              "A row of plots for each sweep, a plot for each rate, a line for each sequence and "
+              "their mean. Up is better.");
+  double top = kSweepTop, width = 0.0;
   std::vector<ChartSeries> legend;
   for (const NumberSweep& sweep : number_sweeps(results)) {
-    double left = kFirstLeft;
-    for (const RateSpec& rate : rates) {
-      const std::vector<Curve> curves = curves_of(results, sweep, protocol, rate.name);
-      if (!has_points(curves)) continue;
-      RatePlot(chart, sweep, rate, left, top).draw(curves);
-      left += kPlotPitch;
+    double left = kSweepLeft;
+    for (const auto& rate : {rates.kept, rates.removed, rates.headline}) {
+      if (!rate) continue;
+      const std::vector<Curve> curves = curves_of(results, sweep, protocol, rate->name);
+      if (!draw_rate(chart, sweep, *rate, curves, {left, top})) continue;
+      left += kSweepPitch;
       legend.clear();
-      for (const Curve& curve : curves) legend.push_back({curve.name, curve.look, {}});
+      for (const Curve& curve : curves) legend.push_back(curve.series);
     }
-    if (left == kFirstLeft) continue;
+    if (left == kSweepLeft) continue;
     chart.text(16.0, top - 40.0, sweep.name);
-    width = std::max({width, left - kPlotPitch + kPlotSide, text_width(sweep.name) + 16.0});
-    top += kPlotRowPitch;
+    width =
+        std::max({width, left - kSweepPitch + kSweepSide + 32.0, text_width(sweep.name) + 48.0});
+    top += kSweepRowPitch;
   }
   if (legend.empty()) return {};
-  width = std::max(width, legend_width(legend)) + 32.0;
-  const double legend_top = top - 50.0;
-  const double height = draw_legend(chart, legend, 16.0, legend_top, width - 32.0);
-  chart.set_size(width, legend_top + height + 14.0);
+  finish_with_legend(chart, legend, top - 50.0, width);
   return chart;
 }
 

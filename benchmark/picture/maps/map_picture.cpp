@@ -144,8 +144,11 @@ void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
       panel.raster->draw(canvas, left, y);
     } else {
       canvas.hatch(left, y, row.width, row.height);
-      canvas.paragraph(left + 12, y + 8, row.width - 24, row.height - 16, panel.reason, 13,
-                       kSoftInk);
+      const std::string reason = canvas.fitted(panel.reason, 13, row.width - 24);
+      const int width = canvas.text_width(reason, 13);
+      canvas.fill(left + (row.width - width) / 2 - 6, y + row.height / 2 - 16, width + 12, 24,
+                  kPaper);
+      canvas.text(left + row.width / 2, y + row.height / 2, reason, 13, kSoftInk, Align::kCentre);
     }
     canvas.frame(left, y, row.width, row.height, kBorder);
     if (panel.raster && !scale_shown) {

@@ -6,9 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "benchmark/picture/canvas/colour_maps.h"
 #include "benchmark/picture/maps/map_picture.h"
-#include "benchmark/picture/maps/oblique_view.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
@@ -25,6 +23,104 @@ constexpr double kLeastAspect = 0.30;  ///< Least ratio of height to width of th
 constexpr double kMostAboveSensor = 4.0;
 constexpr double kZoomSide = 26.0;
 constexpr double kCell = 4.0;  ///< Of the grid that finds the busiest place, metres.
+
+// The camera looks down by 42 degrees.
+constexpr double kSine = 0.6691306063588582;
+constexpr double kCosine = 0.7431448254773942;
+
+/// A camera that looks down on the world obliquely, without perspective. The view's own frame is
+/// the world turned about z: x points to the right of the picture, y away from the viewer, z up.
+struct ObliqueCamera {
+  double yaw = 0.0;         ///< Turns the world's x axis away from the picture's right, radians.
+  WorldWindow window;       ///< In the view's frame.
+  double ground = 0.0;      ///< The world's z at which the window lies, metres.
+  double headroom = 6.0;    ///< Metres above the window's far side that fit into the picture.
+  double resolution = 0.1;  ///< Metres per pixel.
+
+  [[nodiscard]] Eigen::Vector3d to_view(const Eigen::Vector3d& world) const;
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int height() const;
+  /// The pixel of a point of the view's frame, and its nearness, which grows towards the viewer.
+  struct Place {
+    double x, y, nearness;
+  };
+  [[nodiscard]] Place place(const Eigen::Vector3d& view) const;
+};
+
+/// Draws points so that near ones hide far ones. Of equally near ones the first stays.
+class ObliqueRaster {
+ public:
+  explicit ObliqueRaster(const ObliqueCamera& camera);
+
+  [[nodiscard]] const ObliqueCamera& camera() const { return camera_; }
+  /// @param view in the view's frame
+  /// @param size of the point in pixels
+  void add(const Eigen::Vector3d& view, const Colour& colour, int size);
+  void draw(Canvas& canvas, int x, int y) const;
+
+ private:
+  struct Pixel {
+    float nearness;
+    Colour colour;
+    bool filled = false;
+  };
+  ObliqueCamera camera_;
+  int width_, height_;
+  std::vector<Pixel> pixels_;
+};
+
+Eigen::Vector3d ObliqueCamera::to_view(const Eigen::Vector3d& world) const {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  return {c * world.x() + s * world.y(), c * world.y() - s * world.x(), world.z()};
+}
+
+int ObliqueCamera::width() const {
+  return std::max(1, static_cast<int>(std::lround(window.width() / resolution)));
+}
+
+int ObliqueCamera::height() const {
+  const double high = window.height() * kSine + headroom * kCosine;
+  return std::max(1, static_cast<int>(std::lround(high / resolution)));
+}
+
+ObliqueCamera::Place ObliqueCamera::place(const Eigen::Vector3d& view) const {
+  const double up = (view.y() - window.y_min) * kSine + (view.z() - ground) * kCosine;
+  return {(view.x() - window.x_min) / resolution, height() - up / resolution,
+          (view.z() - ground) * kSine - (view.y() - window.y_min) * kCosine};
+}
+
+ObliqueRaster::ObliqueRaster(const ObliqueCamera& camera)
+    : camera_(camera),
+      width_(camera.width()),
+      height_(camera.height()),
+      pixels_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
+
+void ObliqueRaster::add(const Eigen::Vector3d& view, const Colour& colour, int size) {
+  if (view.x() < camera_.window.x_min || view.x() >= camera_.window.x_max ||
+      view.y() < camera_.window.y_min || view.y() >= camera_.window.y_max) {
+    return;
+  }
+  const ObliqueCamera::Place place = camera_.place(view);
+  const auto nearness = static_cast<float>(place.nearness);
+  const int left = static_cast<int>(std::floor(place.x)),
+            top = static_cast<int>(std::floor(place.y));
+  for (int y = std::max(0, top); y < std::min(height_, top + size); ++y) {
+    for (int x = std::max(0, left); x < std::min(width_, left + size); ++x) {
+      Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                             static_cast<std::size_t>(x)];
+      if (pixel.filled && !(nearness > pixel.nearness)) continue;
+      pixel = {nearness, colour, true};
+    }
+  }
+}
+
+void ObliqueRaster::draw(Canvas& canvas, int left, int top) const {
+  canvas.draw_pixels(left, top, width_, height_, [&](int x, int y) -> std::optional<Colour> {
+    const Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                 static_cast<std::size_t>(x)];
+    return pixel.filled ? std::optional(pixel.colour) : std::nullopt;
+  });
+}
 
 /// Calls `look` for each point that the overview shows.
 void for_each_point(const Sequence& sequence, const ScanSource& scans,

@@ -33,7 +33,8 @@ const char* outcome_name(Outcome outcome) {
 void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
                           const std::vector<MaskStore>& masks, const std::string& task,
                           const OpenContext& context, const VisitPoint& visit) {
-  const ShownPoints points(sequence);
+  const LabelClasses classes(sequence.label_rule);
+  const RangeLimits range_m(sequence.range_m);
   if (context.progress != nullptr) context.progress->begin(task, scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
@@ -42,9 +43,13 @@ void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
     std::vector<Mask> removed;
     for (const MaskStore& store : masks) removed.push_back(store.get(i));
     for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (!points.shows(scan.points[k], labels[k])) continue;
-      const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
-      const bool moving = points.moving(labels[k]);
+      const Eigen::Vector3d point = scan.points[k].cast<double>();
+      if (classes.of(labels[k]) == LabelClass::kIgnored || !range_m.contains(point.norm()) ||
+          point.head<2>().norm() < kMinimumHorizontalRange) {
+        continue;
+      }
+      const Eigen::Vector3d world = scan.T_world_sensor * point;
+      const bool moving = classes.moving(labels[k]);
       for (std::size_t m = 0; m < masks.size(); ++m) {
         visit(m, {world, world.z() - scan.T_world_sensor.translation().z(),
                   outcome_of(moving, removed[m][k] != 0)});
@@ -52,12 +57,6 @@ void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
     }
     if (context.progress != nullptr) context.progress->advance();
   }
-}
-
-bool ShownPoints::shows(const Eigen::Vector3f& point, std::uint32_t label) const {
-  const Eigen::Vector3d metres = point.cast<double>();
-  return classes_.of(label) != LabelClass::kIgnored && range_m_.contains(metres.norm()) &&
-         metres.head<2>().norm() >= kMinimumHorizontalRange;
 }
 
 }  // namespace raymoval

@@ -36,23 +36,6 @@ constexpr Outcome outcome_of(bool moving, bool removed) {
   return removed ? Outcome::kFalsePositive : Outcome::kKeptStatic;
 }
 
-/// Says which points of a sequence are shown: those that protocols evaluate by default. They are in
-/// range, their label is not ignored, and they are not on the sensor's own vehicle (within 2.7 m of
-/// the sensor's axis).
-class ShownPoints {
- public:
-  explicit ShownPoints(const Sequence& sequence)
-      : classes_(sequence.label_rule), range_m_(sequence.range_m) {}
-
-  /// @param point in the sensor frame
-  [[nodiscard]] bool shows(const Eigen::Vector3f& point, std::uint32_t label) const;
-  [[nodiscard]] bool moving(std::uint32_t label) const { return classes_.moving(label); }
-
- private:
-  LabelClasses classes_;
-  RangeLimits range_m_;
-};
-
 /// A point that is shown, and what became of it.
 struct PointOutcome {
   Eigen::Vector3d world;  ///< In the frame of the scans, metres.
@@ -62,7 +45,9 @@ struct PointOutcome {
 /// Receives a point once for each of the masks, with the number of the mask.
 using VisitPoint = std::function<void(std::size_t mask, const PointOutcome& point)>;
 
-/// Visits all shown points of a sequence, scan by scan.
+/// Visits, scan by scan, the points of a sequence that protocols evaluate by default. They are in
+/// range, their label is not ignored, and they are not on the ego vehicle (within 2.7 m of the
+/// sensor's axis).
 /// @param scans of the sequence, in a frame whose z axis points up
 /// @param masks what each method removed
 /// @param task what the progress says

@@ -39,7 +39,7 @@ Pose shifted(double x, double y, double z) {
 }
 
 MaskStore masks_on(const Sequence& sequence, const MethodRequest& request) {
-  const MethodAnswer answer = run_method({&sequence, &request, 2, nullptr, nullptr, false});
+  const MethodAnswer answer = run_method({&sequence, &request, {2}});
   INFO(answer.reason);
   REQUIRE(answer.status == CellStatus::kOk);
   return answer.masks;

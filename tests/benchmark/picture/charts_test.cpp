@@ -4,13 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <array>
 
-#include "benchmark/picture/canvas/png_file.h"
-#include "benchmark/picture/charts/chart_file.h"
-#include "benchmark/picture/charts/chart_parts.h"
-#include "core/files/files.h"
-#include "tests/benchmark/small_world.h"
+#include "benchmark/picture/charts/plot.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
@@ -275,113 +270,9 @@ TEST_CASE("Two sweeps of one variant are two series") {
   CHECK(series[1].name == "m over test");
 }
 
-TEST_CASE("A chart is written as PDF and PNG too") {
-  const test::TemporaryFolder folder;
-  const ChartDrawing chart = pr_rr_chart(two_points(), "erasor");
-  const auto written = [&](const char* name) {
-    write_chart(folder.path() / name, chart);
-    return read_text(folder.path() / name);
-  };
-  CHECK(written("a.svg") == chart.svg());
-  const std::string pdf = written("a.pdf");
-  CHECK_THAT(pdf, Catch::Matchers::StartsWith("%PDF-"));
-  CHECK(pdf.find("CreationDate") == std::string::npos);
-  CHECK(pdf == written("b.pdf"));
-  CHECK(written("a.png") == written("b.png"));
-  const Canvas image = read_png(folder.path() / "a.png");
-  CHECK(image.width() == 2.0 * chart.width());
-  CHECK(image.height() == 2.0 * chart.height());
-}
-
-TEST_CASE("A chart that is too large for a PNG is refused, and written as SVG and PDF") {
-  const test::TemporaryFolder folder;
-  ChartDrawing chart("large", "", "");
-  chart.line(0.0, 0.0, 9.0, 9.0, "axis");
-  chart.set_size(10'000.0, 1'001.0);
-  CHECK_THROWS_WITH(write_chart(folder.path() / "a.png", chart), Contains("20000 x 2002 pixels"));
-  CHECK_NOTHROW(write_chart(folder.path() / "a.pdf", chart));
-  CHECK_NOTHROW(write_chart(folder.path() / "a.svg", chart));
-}
-
-TEST_CASE("Cairo draws what the rules of the SVG's style say") {
-  constexpr Colour kSoft{0x59, 0x59, 0x59}, kLine{0xd4, 0xd4, 0xd4}, kBlue{0, 0, 255};
-  ChartDrawing chart("looks", "", "");
-  // Each on a row of pixels of its own.
-  chart.line(2.0, 1.5, 20.0, 1.5, "axis");
-  chart.line(2.0, 3.5, 20.0, 3.5, "grid");
-  chart.line(2.0, 5.5, 20.0, 5.5, "iso");
-  chart.line(2.0, 8.5, 20.0, 8.5, "front");
-  chart.polyline({{2.0, 12.5}, {20.0, 12.5}}, "joined", kBlue);
-  chart.rectangle(2.5, 16.5, 8.0, 4.0, kBlue, "hint");
-  for (const char* rule : {".axis{stroke:var(--chart-soft)", ".grid{stroke:var(--chart-line)",
-                           ".iso{stroke:var(--chart-soft);stroke-dasharray:2 3;",
-                           ".front{stroke:var(--chart-soft);stroke-width:1.5;",
-                           ".joined{stroke-width:1.5;", ".mark{stroke:var(--chart-ground)",
-                           "{--chart-ink:#1a1a1a;--chart-soft:#595959;--chart-line:#d4d4d4;"}) {
-    CHECK_THAT(chart.svg(), Contains(rule));
-  }
-  Canvas canvas(24, 24);
-  canvas.fill(0, 0, 24, 24, kBlue);
-  chart.draw(canvas.context());
-  CHECK(canvas.at(0, 0) == kPaper);  // The ground.
-  for (int x = 2; x < 20; ++x) {
-    CHECK(canvas.at(x, 1) == kSoft);
-    CHECK(canvas.at(x, 3) == kLine);
-    CHECK(canvas.at(x, 5) == ((x - 2) % 5 < 2 ? kSoft : kPaper));
-    CHECK(canvas.at(x, 8) == kSoft);
-    CHECK(canvas.at(x, 12) == kBlue);
-  }
-  // A line 1.5 wide covers a quarter of the pixels at its sides; one 1 wide does not.
-  CHECK(canvas.at(9, 7).red == Approx(255 - (255 - 0x59) / 4.0).margin(6));
-  CHECK(canvas.at(9, 11).red == Approx(255 * 3 / 4.0).margin(6));
-  CHECK(canvas.at(9, 2) == kPaper);
-  CHECK(canvas.at(5, 18) == kBlue);
-  CHECK(canvas.at(5, 16) == kPaper);  // The mark's edge has the colour of the ground.
-}
-
-TEST_CASE("Cairo writes texts where the SVG has them") {
-  // The box of a text's ink: left, top, right, bottom.
-  const auto ink = [](const std::string& look, bool upwards = false) {
-    ChartDrawing chart("texts", "", "");
-    if (upwards) {
-      chart.text_upwards(100.0, 100.0, "HHHHHHHH");
-    } else {
-      chart.text(100.0, 100.0, "HHHHHHHH", look);
-    }
-    Canvas canvas(200, 200);
-    chart.draw(canvas.context());
-    std::array<int, 5> box = {200, 200, 0, 0, 255};
-    for (int y = 0; y < 200; ++y) {
-      for (int x = 0; x < 200; ++x) {
-        const int red = canvas.at(x, y).red;
-        box[4] = std::min(box[4], red);
-        if (red > 200) continue;
-        box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y),
-               box[4]};
-      }
-    }
-    return box;
-  };
-  const auto plain = ink("ink"), middle = ink("middle"), end = ink("soft end");
-  const int width = plain[2] - plain[0];  // An H of DejaVu Sans is 0.752 of its size wide.
-  CHECK(width == Approx(8 * 0.752 * 12).margin(4));
-  CHECK(plain[0] == Approx(101).margin(1));
-  CHECK(plain[3] == Approx(99).margin(1));  // On the base line.
-  CHECK(middle[0] + middle[2] == Approx(200).margin(3));
-  CHECK(end[2] == Approx(98).margin(1));
-  CHECK(plain[4] < 0x59);
-  CHECK(end[4] >= 0x59);
-  CHECK(ink("small")[2] - ink("small")[0] == Approx(width * 10 / 12.0).margin(2));
-  CHECK(ink("bold")[2] - ink("bold")[0] > width + 4);
-  const auto upwards = ink("", true);
-  CHECK(upwards[1] + upwards[3] == Approx(200).margin(3));
-  CHECK(upwards[3] - upwards[1] == Approx(width).margin(1));
-  CHECK(upwards[2] == Approx(99).margin(1));
-}
-
 TEST_CASE("Axes begin and end at round numbers") {
   RateSpec rate{.name = "PR"};
-  const LinearAxis percent = axis_to_best(rate, 97.2);
+  const Axis percent = axis_to_best(rate, 97.2);
   CHECK(percent.low == Approx(97.0));  // A point at 97.2 is above the axis.
   CHECK(axis_to_best(rate, 0.0).low == 0.0);
   CHECK(axis_to_best(rate, 100.0).low < 100.0);  // All at the upper end: still an axis.
@@ -389,7 +280,7 @@ TEST_CASE("Axes begin and end at round numbers") {
   // Where lower is better the axis runs from a round number above the worst value to 0.
   rate.unit = RateUnit::kFraction;
   rate.higher_is_better = false;
-  const LinearAxis mistakes = axis_to_best(rate, 0.083);
+  const Axis mistakes = axis_to_best(rate, 0.083);
   CHECK(mistakes.high == Approx(0.1));
   CHECK(mistakes.at(0.0, 200.0) == 200.0);
   CHECK(mistakes.at(0.1, 200.0) == Approx(0.0).margin(1e-9));

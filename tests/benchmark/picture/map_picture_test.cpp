@@ -7,9 +7,7 @@
 #include <fstream>
 #include <optional>
 
-#include "benchmark/picture/canvas/png_file.h"
 #include "benchmark/picture/maps/overview_picture.h"
-#include "benchmark/picture/maps/range_picture.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
@@ -162,21 +160,14 @@ TEST_CASE("A crop in which no point lies is refused with the place where the sen
   CHECK_NOTHROW(map_picture(run, failed, {}));
 }
 
-TEST_CASE("What is written as PNG is read again") {
-  const TwoPointRun two;
-  const Canvas drawn = map_picture(two.kept(), half_metre("remove-all:default"), {});
-  const fs::path file = two.folder.path() / "map.png";
-  write_png(file, drawn);
-  const Canvas read = read_png(file);
-  CHECK(read.width() == drawn.width());
-  CHECK(read.height() == drawn.height());
-  bool same = true;
-  for (int y = 0; y < read.height(); ++y) {
-    for (int x = 0; x < read.width(); ++x) same &= read.at(x, y) == drawn.at(x, y);
-  }
-  CHECK(same);
-  CHECK(png_bytes(drawn) == png_bytes(read));
-  CHECK_THROWS_WITH(read_png(two.data / "poses.txt"), Contains("not a PNG"));
+TEST_CASE("The same pixels give the same PNG, with the size of the picture in its head") {
+  Canvas first(300, 5), second(300, 5);
+  for (Canvas* canvas : {&first, &second}) canvas->fill(2, 1, 40, 3, kInk);
+  const std::string png = first.png_bytes();
+  CHECK(png == second.png_bytes());
+  CHECK_THAT(png, Catch::Matchers::StartsWith("\x89PNG\r\n"));
+  // After the signature and the name of the first chunk, width and height as big-endian numbers.
+  CHECK(png.substr(12, 12) == std::string("IHDR\0\0\x01\x2C\0\0\0\x05", 12));
 }
 
 TEST_CASE("A cell that failed is a hatched panel, beside others or alone") {
@@ -200,7 +191,7 @@ TEST_CASE("Pictures of points say what they lack") {
   const KeptRun run = bare.kept();
   CHECK_THROWS_WITH(map_picture(run, half_metre("noop:default"), {}),
                     Contains("two / noop:default") && Contains("--keep-removals"));
-  CHECK_THROWS_WITH(range_picture(run, run.cell("two", "noop:default"), {}, {}),
+  CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "noop:default"), {}, {}),
                     Contains("--keep-removals"));
   CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "broken:default"), {}, {}),
                     Contains("it has no idea"));
@@ -270,26 +261,6 @@ TEST_CASE("Cells of a map are half open, and what lies outside the window is lef
   raster.add({2.0, 0.5, 0.0}, Outcome::kTruePositive);
   raster.add({-0.1, 0.5, 0.0}, Outcome::kTruePositive);
   CHECK_FALSE(raster.shown(0, 1, outcome));
-}
-
-TEST_CASE("Range images show a point in its direction") {
-  const TwoPointRun two;
-  const KeptRun run = two.kept();
-  RangePictureOptions options;
-  options.width = 400;
-  const Canvas image = range_picture(run, run.cell("two", "oracle:default"), options, {});
-  CHECK(image.width() == 440);
-  // Both points are level, so there is one row, as high as a row may be: 12 pixels. The verdict is
-  // the fourth image, from 20 + 26 + 3 * (28 + 12 + 12) + 28 on. Ahead is in the middle, azimuth 0
-  // between the bins 199 and 200; atan(10 / 5) is 70.5 bins to the left of it.
-  const int y = 20 + 26 + 3 * 52 + 28 + 5;
-  const bool left_bin = image.at(20 + 199, y) == verdict_colours::kKeptStatic;
-  CHECK(left_bin != (image.at(20 + 200, y) == verdict_colours::kKeptStatic));
-  CHECK(image.at(20 + 129, y) == verdict_colours::kTruePositive);
-  CHECK(image.at(20 + 300, y) == Colour{255, 255, 255});
-  options.frame = 7;
-  CHECK_THROWS_WITH(range_picture(run, run.cell("two", "oracle:default"), options, {}),
-                    Contains("--scan 7") && Contains("0:0"));
 }
 
 TEST_CASE("An overview has both colours of what moved") {

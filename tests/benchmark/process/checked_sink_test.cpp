@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 TEST_CASE("The sink holds a method to one mask of the right size per scan") {
   const test::TwoScans world;
   const TimedSource scans(world);
-  CheckedSink sink("mine", scans);
+  CheckedSink sink("mine", scans, MaskStore(2));
 
   CHECK_THROWS_AS(sink.accept(2, {1}), MethodError);
   CHECK_THROWS_WITH(sink.accept(0, {1, 0}), Contains("scan 0") && Contains("2 values"));
@@ -23,15 +23,16 @@ TEST_CASE("The sink holds a method to one mask of the right size per scan") {
   CHECK_THROWS_WITH(sink.finish(), Contains("no mask for scan 1"));
 
   sink.accept(1, {0});
-  CHECK(sink.finish().get(0) == Mask{1, 0, 1});
-  CHECK(sink.finish().removed_count() == 2);
+  const MaskStore masks = sink.finish();
+  CHECK(masks.get(0) == Mask{1, 0, 1});
+  CHECK(masks.removed_count() == 2);
 }
 
 TEST_CASE("Evidence becomes a confidence in steps of 1/250, once per scan and point") {
   const test::TwoScans world;  // Three points, then one.
   const TimedSource scans(world);
   const Calibration calibration{"", {{0.0F, 0.1F}, {1.0F, 0.9F}}};
-  KeptConfidence sink("mine", calibration, scans);
+  CheckedConfidence sink("mine", calibration, scans, ScanSpool(2));
   const auto give = [&](std::size_t scan, const std::vector<float>& evidence) {
     sink.accept(scan, evidence);
   };
@@ -44,14 +45,12 @@ TEST_CASE("Evidence becomes a confidence in steps of 1/250, once per scan and po
 
   give(0, {0, 0.5F, 1});
   CHECK_THROWS_WITH(give(0, {0, 0.5F, 1}), Contains("second time"));
-  CHECK_THROWS_WITH(sink.check_complete(), Contains("no evidence for scan 1"));
+  CHECK_THROWS_WITH(sink.finish(), Contains("no evidence for scan 1"));
   give(1, {0});
   const ConfidenceStore kept = sink.finish();
-  CHECK(kept.at(0, 0) == 25);  // 0.1
-  CHECK(kept.at(0, 1) == 125);
-  CHECK(kept.at(0, 2) == 225);
-  CHECK(kept.at(1, 0) == 25);
-  CHECK(confidence_of_steps(kept.at(0, 2)) == 0.9F);
+  CHECK(kept.steps.get(0) == std::string({25, 125, static_cast<char>(225)}));  // 25: 0.1.
+  CHECK(kept.steps.get(1) == std::string({25}));
+  CHECK(confidence_of_steps(225) == 0.9F);
 }
 
 TEST_CASE("The digest tells masks apart, also where only the scans' borders differ") {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/report/map_scene.h"
+#include "benchmark/report/scene.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "benchmark/report/map_page.h"
+#include "benchmark/report/page.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;

@@ -234,13 +234,13 @@ TEST_CASE("points beyond the range limits are not shown", "[report]") {
 TEST_CASE("reasons go with their points, and are held to their contract", "[report]") {
   const test::TwoScans source;
   const TimedSource scans(source);
-  ReasonStore store("m", scans);
+  CheckedReasons store("m", scans);
   CHECK_THROWS_WITH(store.accept(0, {0, 0, 0}), Contains("before their sentences"));
   store.explain({"so", "because"});
   CHECK_THROWS_WITH(store.explain({"so"}), Contains("twice"));
   CHECK_THROWS_WITH(store.accept(0, {0, 0}), Contains("expected one for each of the scan's 3"));
   CHECK_THROWS_WITH(store.accept(0, {0, 2, 0}), Contains("no sentence"));
-  CHECK_THROWS_WITH(store.accept(2, {0}), Contains("no such scan"));
+  CHECK_THROWS_WITH(store.accept(2, {0}), Contains("only 2 scans"));
   store.accept(0, {0, 1, 0});
   const Reasons reasons = store.finish();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/run/side_by_side.h"
+#include "benchmark/run/sequence_run.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>

@@ -8,6 +8,7 @@
 
 #include "core/files/files.h"
 #include "core/files/part_name.h"
+#include "core/files/scratch_folder.h"
 #include "methods/registry.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/methods/toy_world.h"
@@ -209,7 +210,7 @@ TEST_CASE("what a killed run left is removed, what a running one has is not") {
   }
   (void)f.masks(kRight);
   CHECK(std::filesystem::exists(dead));  // It was none when this process looked there.
-  remove_abandoned_working_folders();
+  remove_abandoned_scratch_folders();
   CHECK_FALSE(std::filesystem::exists(dead));
   CHECK(std::filesystem::exists(alive.place));
   CHECK(std::filesystem::exists(f.temporary / "other/file"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recordings that are unpacked to TMPDIR do not stay there when their readers are killed.
-#include "datasets/bags/private_folder.h"
+// What is written to TMPDIR does not stay there when its process is killed.
+#include "core/files/scratch_folder.h"
 
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -44,11 +44,11 @@ class OwnTmpdir {
   std::optional<std::string> before_;
 };
 
-/// Makes a private folder with a file in a process that then ends as if killed.
-void leave_private_folder() {
+/// Makes a temporary folder with a file in a process that then ends as if killed.
+void leave_temporary_folder() {
   const pid_t child = ::fork();
   if (child == 0) {
-    const auto* folder = new PrivateFolder();
+    const auto* folder = new ScratchFolder(kRecordingFolder);
     std::ofstream(folder->path() / "drive.db3") << "unpacked";
     ::_exit(0);
   }
@@ -59,10 +59,10 @@ void leave_private_folder() {
 
 }  // namespace
 
-TEST_CASE("A private folder is its user's alone and goes with its object", "[bags]") {
+TEST_CASE("A temporary folder is its user's alone and goes with its object") {
   const OwnTmpdir tmpdir;
   {
-    const PrivateFolder folder;
+    const ScratchFolder folder(kRecordingFolder);
     struct stat status {};
     REQUIRE(::stat(folder.path().c_str(), &status) == 0);
     CHECK((status.st_mode & 0777U) == 0700U);
@@ -72,23 +72,22 @@ TEST_CASE("A private folder is its user's alone and goes with its object", "[bag
   CHECK(tmpdir.entries() == 0);
 }
 
-TEST_CASE("A reader removes what killed readers of recordings left before it", "[bags]") {
+TEST_CASE("A process removes what killed processes left before it") {
   const OwnTmpdir tmpdir;
-  leave_private_folder();
-  leave_private_folder();
+  leave_temporary_folder();
+  leave_temporary_folder();
   REQUIRE(tmpdir.entries() > 0);
-  const PrivateFolder folder;
+  const ScratchFolder folder(kRecordingFolder);
   CHECK(entries_of(tmpdir.folder().path()) == std::vector<fs::path>{folder.path()});
 }
 
-TEST_CASE("The folder of a killed reader can be removed, and that of a living one stays",
-          "[bags]") {
+TEST_CASE("The folder of a killed process can be removed, and that of a running one stays") {
   const OwnTmpdir tmpdir;
   (void)tmpdir.folder().write("other/file", "");
-  const PrivateFolder living;
-  leave_private_folder();
+  const ScratchFolder living(kRecordingFolder);
+  leave_temporary_folder();
   REQUIRE(tmpdir.entries() == 3);
-  remove_abandoned_private_folders();
+  remove_abandoned_scratch_folders();
   CHECK(tmpdir.entries() == 2);
   CHECK(fs::exists(living.path()));
   CHECK(fs::exists(tmpdir.folder() / "other/file"));
