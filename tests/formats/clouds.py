@@ -86,14 +86,14 @@ def write_ply(path, array, order):
         file.write(struct.pack(sign + "Biii", 3, 0, 1, 2))
 
 
-def read_ply(path, order="<"):
+def read_ply(path):
     types = {"float": "<f4", "double": "<f8", "char": "i1", "short": "<i2", "int": "<i4",
              "uchar": "u1", "ushort": "<u2", "uint": "<u4"}
     with open(path, "rb") as file:
         head, body = file.read().split(b"end_header\n", 1)
     fields = [line.split() for line in head.decode().splitlines() if line.startswith("property")]
-    stored = np.dtype([(name, types[kind].replace("<", order)) for _, kind, name in fields])
-    return np.frombuffer(body, stored).astype(stored.newbyteorder("<"))
+    stored = np.dtype([(name, types[kind]) for _, kind, name in fields])
+    return np.frombuffer(body, stored)
 
 
 def read_pcd(path):
@@ -105,61 +105,6 @@ def read_pcd(path):
                       for n, t, s, c in zip(entries["FIELDS"], entries["TYPE"], entries["SIZE"],
                                             entries["COUNT"])])
     return np.frombuffer(body, dtype)
-
-
-def written_like(source, target):
-    """Whether raymoval writes the points of `source` again, in the same form."""
-    return subprocess.run([PROGRAM, "like", source, target], check=False).returncode == 0
-
-
-def text_values(path, end, dtype):
-    """The points in the lines behind the line `end`."""
-    with open(path, encoding="ascii") as file:
-        lines = file.read().split(end + "\n", 1)[1].splitlines()
-    array = np.zeros(len(lines), dtype)
-    for row, line in zip(array, lines):
-        words = iter(line.split())
-        for name in dtype.names:
-            for at in np.ndindex(dtype[name].shape):
-                word = next(words)
-                value = float(word) if dtype[name].base.kind == "f" else int(word)
-                if at:
-                    row[name][at] = value
-                else:
-                    row[name] = value
-    return array
-
-
-def try_forms(folder):
-    """Files that are written as they were: text, compressed, another byte order, packed."""
-    for variant, fields in LAYOUTS.items():
-        array = made(fields)
-        source, ours = f"{folder}/a.pcd", f"{folder}/b.pcd"
-        write_pcd(source, array, "ascii")
-        say("PCD ascii", variant, "Python", "written as read", written_like(source, ours) and same(
-            text_values(ours, "DATA ascii", array.dtype), array))
-        with open(source, "rb") as file, gzip.open(source + ".gz", "wb") as packed:
-            packed.write(file.read())
-        if written_like(source + ".gz", ours + ".gz"):
-            with gzip.open(ours + ".gz", "rb") as packed, open(ours, "wb") as file:
-                file.write(packed.read())
-        say("PCD ascii, gzip", variant, "Python", "written as read",
-            same(text_values(ours, "DATA ascii", array.dtype), array))
-        for kind, save in {"stored": np.savez, "deflated": np.savez_compressed}.items():
-            save(f"{folder}/a.npz", points=array)
-            say("npz " + kind, variant, "NumPy", "written as read",
-                written_like(f"{folder}/a.npz", f"{folder}/b.npz") and same(
-                    np.load(f"{folder}/b.npz")["points"], array))
-        if any(t[1] in ("<u8", "<i8") or len(t) > 2 for t in fields):
-            continue
-        write_ply(f"{folder}/a.ply", array, "ascii")
-        say("PLY ascii", variant, "Python", "written as read",
-            written_like(f"{folder}/a.ply", f"{folder}/b.ply") and same(
-                text_values(f"{folder}/b.ply", "end_header", array.dtype), array))
-        write_ply(f"{folder}/a.ply", array, "binary_big_endian")
-        say("PLY big-endian", variant, "Python", "written as read",
-            written_like(f"{folder}/a.ply", f"{folder}/b.ply") and same(
-                read_ply(f"{folder}/b.ply", ">"), array))
 
 
 def try_text_formats(folder):
@@ -278,14 +223,6 @@ def try_pcl(folder):
             subprocess.run([tool, f"{folder}/ours.pcd", path, str(number), "17"],
                            capture_output=True, check=False)
             say("PCD " + data, variant, "PCL", "both", same(read(path), array))
-        if tool is None:
-            continue
-        # Ours that is compressed, made binary by PCL.
-        written_like(path, f"{folder}/again.pcd")
-        subprocess.run([tool, f"{folder}/again.pcd", f"{folder}/plain.pcd", "1"],
-                       capture_output=True, check=False)
-        say("PCD binary_compressed", variant, "PCL", "written as read",
-            same(read(f"{folder}/plain.pcd"), array))
 
 
 def try_open3d(folder):
@@ -330,7 +267,7 @@ def try_open3d(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        for part in (try_text_formats, try_forms, try_numpy, try_rows, try_las, try_pcl, try_open3d):
+        for part in (try_text_formats, try_numpy, try_rows, try_las, try_pcl, try_open3d):
             part(folder)
     return TABLE.finish()
 

@@ -3,7 +3,6 @@
 //
 //   raymoval_formats dump FILE [POINT_LAYOUT]         the fields and rows of a cloud as JSON
 //   raymoval_formats convert IN OUT [POINT_LAYOUT]    writes the records of IN to OUT
-//   raymoval_formats like IN OUT                      writes them in the form that IN has
 //   raymoval_formats sequence PATH [OPTION=VALUE...]  the scans of a sequence with their poses
 #include <cstdio>
 #include <map>
@@ -12,10 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files/files.h"
 #include "core/text.h"
-#include "datasets/bags/bag.h"
-#include "datasets/bags/messages/point_cloud.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
@@ -55,10 +51,6 @@ void convert(const std::string& from, const std::string& to,
   writer.add(records);
   writer.finish();
   writer.commit();
-}
-
-void write_like(const std::string& from, const std::string& to) {
-  raymoval::write_atomically(to, raymoval::whole_file(to, raymoval::read_records(from)));
 }
 
 raymoval::SequenceOptions options_of(const std::map<std::string, std::string>& words) {
@@ -111,8 +103,6 @@ bool run(const std::vector<std::string>& words) {
     dump(words[1], reading);
   } else if (command == "convert") {
     convert(words[1], words[2], reading);
-  } else if (command == "like") {
-    write_like(words[1], words[2]);
   } else if (command == "sequence") {
     std::map<std::string, std::string> options;
     for (std::size_t i = 2; i < words.size(); ++i) {

@@ -3,15 +3,14 @@
 //
 //   node mcap.mjs cdr < JSON          messages in CDR, by @foxglove/rosmsg2-serialization, as hex
 //   node mcap.mjs write < JSON        MCAP files by @mcap/core; chunks by the programs zstd and lz4
-//   node mcap.mjs read FILE INDEXED   the messages of a file as JSON, by its index or front to back
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
 // The packages stand in the folder that NODE_PATH names.
 const require = createRequire(import.meta.url);
-const packer = (program, direction) => (data) =>
-  execFileSync(program, ["-c", ...direction], { input: data, maxBuffer: 1 << 28 });
+const packer = (program) => (data) =>
+  execFileSync(program, ["-c"], { input: data, maxBuffer: 1 << 28 });
 
 class Buffered {
   parts = [];
@@ -24,7 +23,7 @@ async function write({ file, profile, packing, options, messages }) {
   const { McapWriter } = require("@mcap/core");
   const writable = new Buffered();
   const packed = packing ? { compressChunk: (data) => (
-    { compression: packing, compressedData: packer(packing, [])(data) }) } : {};
+    { compression: packing, compressedData: packer(packing)(data) }) } : {};
   const writer = new McapWriter({ writable, chunkSize: 4000, ...options, ...packed });
   await writer.start({ profile, library: "" });
   const channels = new Map();
@@ -42,30 +41,6 @@ async function write({ file, profile, packing, options, messages }) {
   writeFileSync(file, Buffer.concat(writable.parts));
 }
 
-async function read(file, indexed) {
-  const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
-  const bytes = readFileSync(file);
-  const decompressHandlers = { zstd: packer("zstd", ["-d"]), lz4: packer("lz4", ["-d"]) };
-  const channels = new Map(), found = [];
-  const add = (message) => found.push({ topic: channels.get(message.channelId),
-    time: String(message.logTime), hex: Buffer.from(message.data).toString("hex") });
-  if (indexed) {
-    const readable = { size: async () => BigInt(bytes.length),
-      read: async (offset, size) => bytes.subarray(Number(offset), Number(offset + size)) };
-    const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
-    for (const channel of reader.channelsById.values()) channels.set(channel.id, channel.topic);
-    for await (const message of reader.readMessages()) add(message);
-  } else {
-    const reader = new McapStreamReader({ decompressHandlers, validateCrcs: true });
-    reader.append(bytes);
-    for (let record; (record = reader.nextRecord());) {
-      if (record.type === "Channel") channels.set(record.id, record.topic);
-      if (record.type === "Message") add(record);
-    }
-  }
-  process.stdout.write(JSON.stringify(found));
-}
-
 function cdr(messages) {
   const { parse } = require("@foxglove/rosmsg");
   const { MessageWriter } = require("@foxglove/rosmsg2-serialization");
@@ -77,11 +52,6 @@ function cdr(messages) {
   process.stdout.write(JSON.stringify(hex));
 }
 
-const [command, file, indexed] = process.argv.slice(2);
-if (command === "read") {
-  await read(file, indexed === "indexed");
-} else {
-  const input = JSON.parse(readFileSync(0, "utf8"));
-  if (command === "cdr") cdr(input);
-  else for (const one of input) await write(one);
-}
+const input = JSON.parse(readFileSync(0, "utf8"));
+if (process.argv[2] === "cdr") cdr(input);
+else for (const one of input) await write(one);
