@@ -28,7 +28,7 @@ methods/common         . patchwork
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects online .
 eval                   . points lattice dynamicmap|erasor|mos protocol_registry columns|comparison|confidence|published
-eval/erasor            options|frame maps matching rates scorer .
+eval/erasor            options|frame maps matching .
 benchmark              harness suite result process tables run picture report clean cli cli/commands
 benchmark              kernels
 benchmark/picture      canvas charts|maps

@@ -43,4 +43,11 @@ std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t stati
   return {SA, DA, AA, HA};
 }
 
+std::vector<std::pair<std::string, std::int64_t>> named_counts(
+    const std::vector<CountSpec>& specs, const std::vector<std::int64_t>& values) {
+  std::vector<std::pair<std::string, std::int64_t>> counts;
+  for (std::size_t i = 0; i < specs.size(); ++i) counts.emplace_back(specs[i].name, values.at(i));
+  return counts;
+}
+
 }  // namespace raymoval::dynamicmap

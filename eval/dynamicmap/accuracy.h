@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eval/rate.h"
@@ -18,5 +19,9 @@ std::vector<RateSpec> accuracy_rate_list();
 std::vector<Rate> accuracy_rates(std::int64_t present_static, std::int64_t static_count,
                                  std::int64_t removed_dynamic, std::int64_t dynamic_count,
                                  const std::string& unit);
+
+/// The counts of a result: the names of `specs` with their values, in the same order.
+std::vector<std::pair<std::string, std::int64_t>> named_counts(
+    const std::vector<CountSpec>& specs, const std::vector<std::int64_t>& values);
 
 }  // namespace raymoval::dynamicmap

@@ -11,6 +11,12 @@ namespace {
 
 using namespace dynamicmap;
 
+std::vector<CountSpec> point_count_list() {
+  return {{"static_points", true},    {"dynamic_points", true},      {"present_static_points"},
+          {"removed_dynamic_points"}, {"kept_static_points"},        {"flagged_dynamic_points"},
+          {"ego_points", true},       {"out_of_range_points", true}, {"ignored_points", true}};
+}
+
 /// What the rates are made of.
 std::vector<std::int64_t> counts_of(const ScanPresence& presence) {
   return {presence.present_static, presence.points.static_points, presence.removed_dynamic,
@@ -26,15 +32,10 @@ ProtocolResult result_of(const std::vector<ScanPresence>& scans) {
   for (const ScanPresence& scan : scans) all += scan;
   ProtocolResult result;
   result.protocol = "dynamicmap";
-  result.counts = {{"static_points", all.points.static_points},
-                   {"dynamic_points", all.points.dynamic_points},
-                   {"present_static_points", all.present_static},
-                   {"removed_dynamic_points", all.removed_dynamic},
-                   {"kept_static_points", all.kept_static},
-                   {"flagged_dynamic_points", all.flagged_dynamic},
-                   {"ego_points", all.points.ego},
-                   {"out_of_range_points", all.points.out_of_range},
-                   {"ignored_points", all.points.ignored}};
+  result.counts = named_counts(
+      point_count_list(), {all.points.static_points, all.points.dynamic_points, all.present_static,
+                           all.removed_dynamic, all.kept_static, all.flagged_dynamic,
+                           all.points.ego, all.points.out_of_range, all.points.ignored});
   result.rates = rates_of(counts_of(all));
   std::vector<std::vector<std::int64_t>> by_scan;
   for (const ScanPresence& scan : scans) by_scan.push_back(counts_of(scan));
@@ -95,15 +96,7 @@ ProtocolEntry dynamicmap_protocol_entry() {
               "AA, HA.",
           .parameters = option_table().specs(),
           .rates = accuracy_rate_list(),
-          .counts = {{"static_points", true},
-                     {"dynamic_points", true},
-                     {"present_static_points"},
-                     {"removed_dynamic_points"},
-                     {"kept_static_points"},
-                     {"flagged_dynamic_points"},
-                     {"ego_points", true},
-                     {"out_of_range_points", true},
-                     {"ignored_points", true}},
+          .counts = point_count_list(),
           .open = [](const EvaluationInput& input,
                      const Configuration& options) -> std::unique_ptr<Scorer> {
             return std::make_unique<DynamicMapScorer>(input, option_table().read(options));

@@ -21,6 +21,12 @@ using namespace dynamicmap;
 constexpr std::uint8_t kStatic = 1;
 constexpr std::uint8_t kDynamic = 2;
 
+std::vector<CountSpec> voxel_count_list() {
+  return {{"static_voxels", true},       {"dynamic_voxels", true}, {"preserved_static"},
+          {"remaining_dynamic"},         {"mixed_voxels", true},   {"ego_points", true},
+          {"out_of_range_points", true}, {"ignored_points", true}};
+}
+
 class StrictScorer : public Scorer {
  public:
   StrictScorer(const EvaluationInput& evaluated, const StrictOptions& options)
@@ -112,14 +118,10 @@ class StrictScorer : public Scorer {
     const std::int64_t remaining = count(kept, kDynamic);
     ProtocolResult result;
     result.protocol = "dynamicmap-strict";
-    result.counts = {{"static_voxels", static_voxels},
-                     {"dynamic_voxels", dynamic_voxels},
-                     {"preserved_static", preserved},
-                     {"remaining_dynamic", remaining},
-                     {"mixed_voxels", count(classes_, kStatic | kDynamic)},
-                     {"ego_points", point_counts_.ego},
-                     {"out_of_range_points", point_counts_.out_of_range},
-                     {"ignored_points", point_counts_.ignored}};
+    result.counts =
+        named_counts(voxel_count_list(), {static_voxels, dynamic_voxels, preserved, remaining,
+                                          count(classes_, kStatic | kDynamic), point_counts_.ego,
+                                          point_counts_.out_of_range, point_counts_.ignored});
     result.rates = accuracy_rates(preserved, static_voxels, dynamic_voxels - remaining,
                                   dynamic_voxels, "voxel");
     if (preserved + remaining == 0) {
@@ -145,14 +147,7 @@ ProtocolEntry strict_protocol_entry() {
               "DA, AA, HA.",
           .parameters = strict_option_table().specs(),
           .rates = accuracy_rate_list(),
-          .counts = {{"static_voxels", true},
-                     {"dynamic_voxels", true},
-                     {"preserved_static"},
-                     {"remaining_dynamic"},
-                     {"mixed_voxels", true},
-                     {"ego_points", true},
-                     {"out_of_range_points", true},
-                     {"ignored_points", true}},
+          .counts = voxel_count_list(),
           .open = [](const EvaluationInput& input,
                      const Configuration& options) -> std::unique_ptr<Scorer> {
             return std::make_unique<StrictScorer>(input, strict_option_table().read(options));

@@ -63,7 +63,7 @@ CountsByScan counts_by_scan(const std::vector<std::vector<std::int64_t>>& scans)
   return counts;
 }
 
-std::vector<Rate> rates_of(const std::vector<std::int64_t>& counts) {
+std::vector<Rate> segmentation_rates(const std::vector<std::int64_t>& counts) {
   const std::int64_t true_positive = counts[0], moving = counts[1];
   const std::int64_t false_positive = counts[3] - counts[2];
   const std::string no_moving = "the ground truth has no moving point";
@@ -87,8 +87,8 @@ ProtocolResult result_of(const std::vector<Confusion>& scans) {
       {"static_points", all.static_points},      {"dynamic_points", all.dynamic_points},
       {"kept_static_points", all.kept_static},   {"flagged_dynamic_points", all.flagged_dynamic},
       {"out_of_range_points", all.out_of_range}, {"ignored_points", all.ignored}};
-  result.rates = rates_of(counts_of(all));
-  result.intervals = bootstrap(by_scan, rates_of);
+  result.rates = segmentation_rates(counts_of(all));
+  result.intervals = bootstrap(by_scan, segmentation_rates);
   result.by_scan = counts_by_scan(by_scan);
   return result;
 }
