@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <benchmark/benchmark.h>
-#include <octomap/OcTree.h>
 
 #include <functional>
 #include <map>
+#include <memory>
 
 #include "benchmark/kernels/ray_designs.h"
 #include "benchmark/kernels/registration.h"
@@ -36,11 +36,8 @@ std::int64_t bins_off(const std::vector<float>& a, const std::vector<float>& b) 
   return count;
 }
 
-/// Whether a design gives the ranges of all bins, comparable with ours.
-enum class Answer { kExact, kOther };
-
 /// One iteration casts one image from each pose.
-void run_design(benchmark::State& state, Workload& workload, const Design& design, Answer answer) {
+void run_design(benchmark::State& state, Workload& workload, const Design& design) {
   std::vector<float> range;
   std::int64_t steps = 0, off = 0;
   for (std::size_t pose = 0; pose < workload.views.size(); ++pose) {  // Also warms up.
@@ -59,46 +56,25 @@ void run_design(benchmark::State& state, Workload& workload, const Design& desig
   const double rays = images * paper_grid().size();
   state.counters["images_per_iteration"] = images;
   if (steps > 0) state.counters["steps_per_ray"] = static_cast<double>(steps) / rays;
-  if (answer == Answer::kExact) state.counters["bins_off_by_1_mm"] = static_cast<double>(off);
+  state.counters["bins_off_by_1_mm"] = static_cast<double>(off);
 }
 
-void add(const std::string& name, Workload& workload, const Design& design,
-         Answer answer = Answer::kExact) {
-  benchmark::RegisterBenchmark((name + "/" + workload.name).c_str(), [&workload, design, answer](
+void add(const std::string& name, Workload& workload, const Design& design) {
+  benchmark::RegisterBenchmark((name + "/" + workload.name).c_str(), [&workload, design](
                                                                          benchmark::State& state) {
     try {
-      run_design(state, workload, design, answer);
+      run_design(state, workload, design);
     } catch (const std::exception& error) {
       state.SkipWithError(error.what());
     }
   })->Unit(benchmark::kMillisecond);
 }
 
-/// A structure made from a workload's map when it is first asked for.
-template <class Make>
-auto once(Make make) {
-  using Made = std::invoke_result_t<Make, const OccupancyMap&>;
-  return [make, held = std::make_shared<std::unique_ptr<Made>>()](Workload& workload) -> Made& {
-    if (!*held) *held = std::make_unique<Made>(make(workload.map));
-    return **held;
-  };
-}
-
-void add_rivals(Workload& workload) {
-  const auto bits = once([](const OccupancyMap& map) { return DenseBits(map); });
-  const auto set = once([](const OccupancyMap& map) { return hash_set_of(map); });
-  const auto tree = once([](const OccupancyMap& map) { return octree_of(map); });
-  const auto octomap = [tree](Workload& w, const ImageJob& job) {
-    octomap_cast_ray(*tree(w), job);
-    return std::int64_t{0};
-  };
-  add("dense_bitset_dda", workload,
-      [bits](Workload& w, const ImageJob& job) { return dense_bitset_dda(bits(w), job); });
-  // The slow ones need not be timed on every map.
-  if (workload.name == "drive_with_trails") return;
-  add("octomap_cast_ray", workload, octomap, Answer::kOther);  // Ranges of voxels' centres.
-  add("hash_set_dda", workload, [set](Workload& w, const ImageJob& job) {
-    return hash_set_dda(set(w), w.map.voxel_size(), job);
+void add_yardstick(Workload& workload) {
+  const auto bits = std::make_shared<std::unique_ptr<DenseBits>>();  // Made when it is asked for.
+  add("dense_bitset_dda", workload, [bits](Workload& w, const ImageJob& job) {
+    if (!*bits) *bits = std::make_unique<DenseBits>(w.map);
+    return dense_bitset_dda(**bits, job);
   });
 }
 
@@ -136,7 +112,7 @@ void add_ours(Workload& workload) {
 
 void register_image_kernels() {
   for (const auto& workload : workloads()) {
-    add_rivals(*workload);
+    add_yardstick(*workload);
     add_ours(*workload);
   }
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/kernels/ray_designs.h"
 
-#include <octomap/OcTree.h>
-
 #include <cmath>
 
 #include "core/error.h"
@@ -69,25 +67,6 @@ DenseBits::DenseBits(const OccupancyMap& map) : voxel_size_(map.voxel_size()) {
   });
 }
 
-VoxelSet hash_set_of(const OccupancyMap& map) {
-  VoxelSet voxels;
-  voxels.reserve(map.size());
-  for_voxels(map, [&](const VoxelIndex& voxel) { voxels.insert(voxel_key(voxel)); });
-  return voxels;
-}
-
-std::unique_ptr<octomap::OcTree, void (*)(octomap::OcTree*)> octree_of(const OccupancyMap& map) {
-  std::unique_ptr<octomap::OcTree, void (*)(octomap::OcTree*)> tree(
-      new octomap::OcTree(map.voxel_size()), [](octomap::OcTree* gone) { delete gone; });
-  for_voxels(map, [&](const VoxelIndex& voxel) {
-    const Eigen::Vector3d centre = (voxel.cast<double>().array() + 0.5) * map.voxel_size();
-    tree->updateNode(centre.x(), centre.y(), centre.z(), true, true);
-  });
-  tree->updateInnerOccupancy();
-  tree->prune();
-  return tree;
-}
-
 std::int64_t dense_bitset_dda(const DenseBits& bits, const ImageJob& job) {
   const auto [x_stride, y_stride, z_stride] = bits.strides();
   const auto limits = job.frame->limits;
@@ -121,43 +100,6 @@ std::int64_t dense_bitset_dda(const DenseBits& bits, const ImageJob& job) {
     }
   });
   return steps;
-}
-
-std::int64_t hash_set_dda(const VoxelSet& voxels, double voxel_size, const ImageJob& job) {
-  const auto limits = job.frame->limits;
-  const auto farthest = static_cast<float>(limits.maximum_range);
-  std::int64_t steps = 0;
-  for_rays(job, [&](const Ray& ray) {
-    FloatWalk walk(ray, limits.minimum_range, voxel_size);
-    while (true) {
-      const std::size_t axis = walk.axis();
-      const float range = walk.next[axis];
-      if (range > farthest) return kNoRange;
-      walk.next[axis] += walk.delta[axis];
-      walk.cell[axis] += walk.step[axis];
-      ++steps;
-      if (voxels.contains(voxel_key(walk.cell[0], walk.cell[1], walk.cell[2]))) return range;
-    }
-  });
-  return steps;
-}
-
-void octomap_cast_ray(const octomap::OcTree& tree, const ImageJob& job) {
-  const auto limits = job.frame->limits;
-  for_rays(job, [&](const Ray& ray) {
-    const Eigen::Vector3d start = ray.origin + limits.minimum_range * ray.direction;
-    octomap::point3d end;
-    const bool hit =
-        tree.castRay(octomap::point3d(static_cast<float>(start.x()), static_cast<float>(start.y()),
-                                      static_cast<float>(start.z())),
-                     octomap::point3d(static_cast<float>(ray.direction.x()),
-                                      static_cast<float>(ray.direction.y()),
-                                      static_cast<float>(ray.direction.z())),
-                     end, true, limits.maximum_range - limits.minimum_range);
-    if (!hit) return kNoRange;
-    const Eigen::Vector3d centre(end.x(), end.y(), end.z());
-    return static_cast<float>((centre - ray.origin).norm());  // The voxel's centre, not its face.
-  });
 }
 
 }  // namespace raymoval::kernels_bench

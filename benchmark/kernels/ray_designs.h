@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The usual ways to find first hits, as yardsticks: one ray after the other.
+// The usual way to find first hits, as a yardstick: one ray after the other.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "methods/raymoval/kernels/first_hit.h"
-
-namespace octomap {
-class OcTree;
-}
 
 namespace raymoval::kernels_bench {
 
@@ -44,14 +39,8 @@ class DenseBits {
   std::vector<std::uint32_t> words_;
 };
 
-VoxelSet hash_set_of(const OccupancyMap& map);
-std::unique_ptr<octomap::OcTree, void (*)(octomap::OcTree*)> octree_of(const OccupancyMap& map);
-
-/// Amanatides and Woo in float with accumulated planes; each returns the number of steps made.
+/// Amanatides and Woo in float with accumulated planes. @return the number of steps made
 std::int64_t dense_bitset_dda(const DenseBits& bits, const ImageJob& job);
-std::int64_t hash_set_dda(const VoxelSet& voxels, double voxel_size, const ImageJob& job);
-/// OctoMap's own.
-void octomap_cast_ray(const octomap::OcTree& tree, const ImageJob& job);
 
 /// Calls `visit` with the index of each occupied voxel, in the order of the map's bricks.
 template <class Visit>

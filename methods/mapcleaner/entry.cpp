@@ -4,7 +4,7 @@
 namespace raymoval {
 namespace {
 
-std::vector<std::string> notes() {
+std::vector<std::string> mapcleaner_notes() {
   return {
       "The default is the public program set for KITTI, whose ground segmentation is "
       "Patchwork++ instead of the paper's; its quirks have switches (public_...).",
@@ -54,7 +54,7 @@ MethodEntry mapcleaner_entry() {
   entry.source =
       "MapCleaner: Efficiently Removing Moving Objects from Point Cloud Maps in Autonomous Driving "
       "Scenarios (Remote Sensing 2022), ground by Patchwork++ (IROS 2022)";
-  entry.notes = notes();
+  entry.notes = mapcleaner_notes();
   entry.variants = {
       {"published", "As the public program is set for KITTI.", false, {}},
       {"sound",

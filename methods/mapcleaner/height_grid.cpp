@@ -2,9 +2,30 @@
 #include "methods/mapcleaner/height_grid.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/parallel.h"
 
 namespace raymoval::mapcleaner_method {
 namespace {
+
+/// A square of cells around a tile, row by row. Heights are relative to `base`, so that single
+/// precision holds them.
+struct HeightWindow {
+  int margin = 0, side = 0;
+  double base = 0.0;             ///< The first height of the window, metres.
+  std::vector<float> height;     ///< 0 where there is none.
+  std::vector<float> is_filled;  ///< 1 where there is a height, else 0.
+  bool is_empty = true;
+  bool is_full = true;
+
+  /// The place of the tile's cell (x, y), which may be up to `margin` outside.
+  [[nodiscard]] std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>((y + margin) * side + margin + x);
+  }
+};
 
 /// Copies what a window has of a tile.
 void copy_tile(const double* heights, const VoxelIndex& from, HeightWindow& window) {
@@ -25,8 +46,7 @@ void copy_tile(const double* heights, const VoxelIndex& from, HeightWindow& wind
   }
 }
 
-}  // namespace
-
+/// @param tile block indices
 HeightWindow window_around(const HeightGrid& grid, const VoxelIndex& tile, int margin) {
   HeightWindow window;
   window.margin = margin;
@@ -46,6 +66,7 @@ HeightWindow window_around(const HeightGrid& grid, const VoxelIndex& tile, int m
   return window;
 }
 
+/// Block indices of all tiles of `grid` and of those at most `reach` tiles from one, sorted.
 std::vector<VoxelIndex> tiles_around(const HeightGrid& grid, int reach) {
   std::vector<VoxelKey> keys;
   for (std::uint32_t block = 0; block < grid.block_count(); ++block) {
@@ -60,6 +81,158 @@ std::vector<VoxelIndex> tiles_around(const HeightGrid& grid, int reach) {
   std::vector<VoxelIndex> tiles;
   for (const VoxelKey key : keys) tiles.push_back(voxel_index(key));
   return tiles;
+}
+
+/// A cell at the distance of the radius, within rounding, is not nearer.
+constexpr double kRounding = 1e-9;
+
+using Row = std::array<float, kTileSide>;
+
+/// A cell around another one, and its weight.
+struct Tap {
+  int x, y;
+  float weight;
+};
+
+std::vector<Tap> taps_within(double radius) {
+  std::vector<Tap> taps;
+  const int reach = static_cast<int>(radius);
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const double d = std::sqrt(x * x + y * y) / radius;
+      if (d > 1.0 - kRounding) continue;
+      const double weight =
+          (2.0 + std::cos(kTurn * d)) / 3.0 * (1.0 - d) + std::sin(kTurn * d) / kTurn;
+      taps.push_back({x, y, static_cast<float>(weight)});
+    }
+  }
+  return taps;
+}
+
+/// Whether the rows of a window hold anything.
+std::vector<std::uint8_t> rows_with_heights(const HeightWindow& window) {
+  std::vector<std::uint8_t> rows(static_cast<std::size_t>(window.side), 0);
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    const auto begin = window.is_filled.begin() + static_cast<std::ptrdiff_t>(y) * window.side;
+    rows[y] = std::find(begin, begin + window.side, 1.0F) != begin + window.side ? 1 : 0;
+  }
+  return rows;
+}
+
+/// Calls `add(tap, place of the row's first tap in the window)` for the taps of a tile's row that
+/// may hold anything.
+template <class Add>
+void for_taps_of_row(const std::vector<Tap>& taps, const HeightWindow& window,
+                     const std::vector<std::uint8_t>& rows, int y, Add&& add) {
+  for (const Tap& tap : taps) {
+    if (rows[static_cast<std::size_t>(y + tap.y + window.margin)] == 0) continue;
+    add(tap.weight, window.at(tap.x, y + tap.y));
+  }
+}
+
+/// First round: the smooth heights of a tile.
+void find_smooth_heights(const HeightWindow& window, const std::vector<Tap>& taps, int least_cells,
+                         double* smooth) {
+  const std::vector<std::uint8_t> rows = rows_with_heights(window);
+  for (int y = 0; y < kTileSide; ++y) {
+    Row sum{}, weights{}, cells{};
+    for_taps_of_row(taps, window, rows, y, [&](float weight, std::size_t at) {
+      const float* const height = window.height.data() + at;
+      const float* const is_filled = window.is_filled.data() + at;
+      for (std::size_t x = 0; x < kTileSide; ++x) {
+        sum[x] += weight * height[x];
+        weights[x] += weight * is_filled[x];
+        cells[x] += is_filled[x];
+      }
+    });
+    for (std::size_t x = 0; x < kTileSide; ++x, ++smooth) {
+      if (cells[x] < static_cast<float>(least_cells) || !(weights[x] > 0.0F)) continue;
+      *smooth = window.base + static_cast<double>(sum[x] / weights[x]);
+    }
+  }
+}
+
+/// However far a cell is from its smooth height, it counts at least exp(-kMostAway), about 1e-26:
+/// less, times the kernel, would be 0 in single precision, and where all around are that far a cell
+/// would stay without a height.
+constexpr double kMostAway = 60.0;
+
+/// What the cells of a window count by how near they are to their smooth heights: these weights go
+/// into `is_filled`, and the weighted heights into `height`.
+void weigh_by_deviation(const HeightWindow& smooth, double deviation, HeightWindow& window) {
+  const double scale = 0.5 / (deviation * deviation);
+  for (std::size_t i = 0; i < window.height.size(); ++i) {
+    if (window.is_filled[i] == 0.0F) continue;
+    const double away = (window.base + static_cast<double>(window.height[i])) -
+                        (smooth.base + static_cast<double>(smooth.height[i]));
+    const double weight =
+        smooth.is_filled[i] == 0.0F ? 0.0 : std::exp(-std::min(away * away * scale, kMostAway));
+    window.is_filled[i] = static_cast<float>(weight);
+    window.height[i] *= static_cast<float>(weight);
+  }
+}
+
+/// Second round: the heights of a tile's cells that have none and a smooth one.
+void fill_tile(const HeightWindow& window, const std::vector<Tap>& taps, const double* smooth,
+               double* heights) {
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(window.side), 1);
+  for (int y = 0; y < kTileSide; ++y) {
+    Row sum{}, weights{};
+    for_taps_of_row(taps, window, all, y, [&](float weight, std::size_t at) {
+      const float* const height = window.height.data() + at;
+      const float* const counts = window.is_filled.data() + at;
+      for (std::size_t x = 0; x < kTileSide; ++x) {
+        sum[x] += weight * height[x];
+        weights[x] += weight * counts[x];
+      }
+    });
+    for (std::size_t x = 0; x < kTileSide; ++x, ++smooth, ++heights) {
+      if (!std::isnan(*heights) || std::isnan(*smooth) || !(weights[x] > 0.0F)) continue;
+      *heights = window.base + static_cast<double>(sum[x] / weights[x]);
+    }
+  }
+}
+
+/// An empty grid that has these tiles.
+HeightGrid grid_of(const std::vector<VoxelIndex>& tiles) {
+  HeightGrid grid(kNoHeight);
+  HeightGrid::Cursor cursor;
+  for (const VoxelIndex& tile : tiles) grid.make(tile * kTileSide, cursor);
+  return grid;
+}
+
+double* cells_of(HeightGrid& grid, std::size_t block) {
+  return &grid.at(block * HeightGrid::kCells);
+}
+
+}  // namespace
+
+HeightGrid filled(const HeightGrid& grid, const Fill& fill, int threads) {
+  if (!(fill.radius > 0.0)) return grid;
+  const std::vector<Tap> taps = taps_within(fill.radius);
+  const int margin = static_cast<int>(fill.radius);
+  const std::vector<VoxelIndex> tiles = tiles_around(grid, (margin + kTileSide - 1) / kTileSide);
+  HeightGrid smooth = grid_of(tiles);
+  parallel_for(threads, tiles.size(), 1, [&](std::size_t i) {
+    const HeightWindow window = window_around(grid, tiles[i], margin);
+    if (window.is_empty || window.is_full) return;  // Nobody asks there.
+    find_smooth_heights(window, taps, fill.least_cells, cells_of(smooth, i));
+  });
+  HeightGrid result = grid_of(tiles);
+  parallel_for(threads, tiles.size(), 1, [&](std::size_t i) {
+    double* const heights = cells_of(result, i);
+    const std::uint32_t own = grid.block(tiles[i]);
+    if (own != HeightGrid::kNone) std::copy_n(grid.cells(own), HeightGrid::kCells, heights);
+    const auto number = static_cast<std::uint32_t>(i);
+    const double* const of_tile = smooth.cells(number);
+    const bool is_wanted = std::any_of(of_tile, of_tile + HeightGrid::kCells,
+                                       [](double height) { return !std::isnan(height); });
+    if (!is_wanted) return;
+    HeightWindow window = window_around(grid, tiles[i], margin);
+    weigh_by_deviation(window_around(smooth, tiles[i], margin), fill.deviation, window);
+    fill_tile(window, taps, of_tile, heights);
+  });
+  return result;
 }
 
 }  // namespace raymoval::mapcleaner_method

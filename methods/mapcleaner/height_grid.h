@@ -23,26 +23,17 @@ inline VoxelIndex terrain_cell(const Eigen::Vector3d& world, double inverse_cell
   return voxel_index({world.x(), world.y(), 0.0}, inverse_cell);
 }
 
-/// A square of cells around a tile, row by row. Heights are relative to `base`, so that single
-/// precision holds them.
-struct HeightWindow {
-  int margin = 0, side = 0;
-  double base = 0.0;             ///< The first height of the window, metres.
-  std::vector<float> height;     ///< 0 where there is none.
-  std::vector<float> is_filled;  ///< 1 where there is a height, else 0.
-  bool is_empty = true;
-  bool is_full = true;
-
-  /// The place of the tile's cell (x, y), which may be up to `margin` outside.
-  [[nodiscard]] std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>((y + margin) * side + margin + x);
-  }
+/// How cells without a height get one from those around them.
+struct Fill {
+  double radius = 0.0;     ///< In cells; those nearer than this count. 0 fills nothing.
+  double deviation = 1.0;  ///< Metres.
+  int least_cells = 1;
 };
 
-/// @param tile block indices
-HeightWindow window_around(const HeightGrid& grid, const VoxelIndex& tile, int margin);
-
-/// Block indices of all tiles of `grid` and of those at most `reach` tiles from one, sorted.
-std::vector<VoxelIndex> tiles_around(const HeightGrid& grid, int reach);
+/// Bayesian generalised kernel inference of terrain in two rounds. The first finds the smooth
+/// height of every cell with enough others around it, by a kernel of their distance. The second
+/// gives it to cells without a height, and weighs those around by how little they deviate from
+/// their own smooth height. Cells with a height keep it.
+HeightGrid filled(const HeightGrid& grid, const Fill& fill, int threads);
 
 }  // namespace raymoval::mapcleaner_method

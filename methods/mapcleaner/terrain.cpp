@@ -7,7 +7,6 @@
 #include "core/angle.h"
 #include "core/parallel.h"
 #include "core/sampling.h"
-#include "methods/mapcleaner/height_fill.h"
 
 namespace raymoval::mapcleaner_method {
 namespace {

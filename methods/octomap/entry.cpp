@@ -5,7 +5,7 @@
 namespace raymoval {
 namespace {
 
-std::vector<std::string> notes() {
+std::vector<std::string> octomap_notes() {
   return {
       "The map is liboctomap's tree with the leaves that insertPointCloud makes of the same scans, "
       "kept to cells in which some scan has a point, for no other is asked for.",
@@ -30,7 +30,7 @@ std::vector<std::string> notes() {
 
 /// By scripts/calibrate.cpp over five simulated worlds of odd seeds, with five sensors. Of what
 /// ends up free most is ground, hence the low end of the curve.
-Calibration confidence() {
+Calibration octomap_confidence() {
   return {
       "How likely a point's leaf is free (ground that is fitted never moves), by the curve of r20.",
       {{0.0292F, 0.0035F},
@@ -64,8 +64,8 @@ MethodEntry octomap_entry() {
   entry.source =
       "Hornung et al., OctoMap: an efficient probabilistic 3D mapping framework based on octrees, "
       "Autonomous Robots 34, 2013; liboctomap 1.9";
-  entry.notes = notes();
-  entry.confidence = confidence();
+  entry.notes = octomap_notes();
+  entry.confidence = octomap_confidence();
   entry.variants = {
       {"r20", "liboctomap's insertPointCloud with leaves of 0.2 m.", false, {}},
       {"r05", "The same with leaves of 0.05 m.", false, {{"resolution", 0.05}}},

@@ -4,7 +4,7 @@
 namespace raymoval {
 namespace {
 
-std::vector<MethodVariant> variants() {
+std::vector<MethodVariant> raymoval_variants() {
   return {
       {"offline", "Every scan tested against the prior map that all scans leave.", false, {}},
       {"online",
@@ -38,7 +38,7 @@ MethodEntry raymoval_entry() {
       "The percentile is always one of the window's values (nearest rank).",
       "m(r) falls with the square of the range and d(r) is constant: the paper gives no form.",
   };
-  entry.variants = variants();
+  entry.variants = raymoval_variants();
   entry.bind(raymoval_method::parameter_table(), raymoval_method::make_raymoval);
   return entry;
 }

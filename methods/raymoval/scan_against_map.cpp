@@ -42,9 +42,7 @@ AngularGrid grid_for(const SensorModel& sensor, const Parameters& parameters) {
 ScanAgainstMap::ScanAgainstMap(const Parameters& parameters, const SensorModel& sensor)
     : parameters_(parameters),
       grid_(grid_for(sensor, parameters)),
-      caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {
-  known_.remembers = true;
-}
+      caster_(grid_, {parameters.minimum_range, parameters.maximum_range}) {}
 
 void ScanAgainstMap::project_next(Scan scan, const RunContext& context) {
   const StageScope timed(context.times, "binning");

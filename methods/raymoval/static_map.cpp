@@ -6,45 +6,23 @@
 
 namespace raymoval::raymoval_method {
 
-StaticMap::Slot StaticMap::find_known(const Eigen::Vector3i& brick,
-                                      std::vector<VoxelLookup::KnownBrick>& table) const {
-  const VoxelKey key = voxel_key(brick);
-  // 32 x 32 x 4 bricks: neighbours share lines of the cache.
-  VoxelLookup::KnownBrick& known = table[static_cast<std::size_t>(
-      (brick.z() & 3) << 10 | (brick.y() & 31) << 5 | (brick.x() & 31))];
-  if (known.key == key) return known.slot;
-  const Slot slot = occupied_.find_slot(brick);
-  if (slot != OccupancyMap::kNoBrick) known = {key, slot};  // Bricks keep their numbers.
-  return slot;
-}
-
 void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
                         VoxelLookup& found) const {
   found.slots.resize(voxels.size());
   found.states.resize(voxels.size());
-  constexpr std::size_t kGrain = 4096, kPiece = 256, kKnownBricks = 4096;
-  const std::size_t parts = (voxels.size() + kGrain - 1) / kGrain;
-  const std::size_t tables = threads <= 1 ? std::min<std::size_t>(parts, 1) : parts;
-  if (found.remembers && found.bricks.size() < tables) {
-    found.bricks.resize(tables, std::vector<VoxelLookup::KnownBrick>(kKnownBricks));
-  }
+  constexpr std::size_t kGrain = 4096, kPiece = 256;
   parallel_chunks(threads, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    const auto find_slot = [&](const Eigen::Vector3i& brick) {
-      return found.remembers ? find_known(brick, found.bricks[threads <= 1 ? 0 : begin / kGrain])
-                             : occupied_.find_slot(brick);
-    };
     // The bricks of some voxels are on their way to the processor before they are looked into.
     for (std::size_t piece = begin; piece < end; piece += kPiece) {
       const std::size_t last = std::min(piece + kPiece, end);
-      find_slots(voxels, piece, last, find_slot, found.slots);
+      find_slots(voxels, piece, last, found.slots);
       for (std::size_t k = piece; k < last; ++k) found.states[k] = state(found.slots[k], voxels[k]);
     }
   });
 }
 
-template <class FindSlot>
 void StaticMap::find_slots(const std::vector<VoxelIndex>& voxels, std::size_t begin,
-                           std::size_t end, FindSlot&& find_slot, std::vector<Slot>& slots) const {
+                           std::size_t end, std::vector<Slot>& slots) const {
   Eigen::Vector3i last = OccupancyMap::brick_of(voxels[begin]);
   last.x() += 1;  // Not the first one's.
   Slot slot = OccupancyMap::kNoBrick;
@@ -52,7 +30,7 @@ void StaticMap::find_slots(const std::vector<VoxelIndex>& voxels, std::size_t be
     const Eigen::Vector3i brick = OccupancyMap::brick_of(voxels[k]);
     if (brick != last) {
       last = brick;
-      slot = find_slot(brick);
+      slot = occupied_.find_slot(brick);
       if (slot != OccupancyMap::kNoBrick) hwy::Prefetch(&occupied_.brick(slot));
       if (slot < erased_of_.size()) hwy::Prefetch(&erased_of_[slot]);
     }

@@ -17,16 +17,6 @@ enum class VoxelState : std::uint8_t {
 struct VoxelLookup {
   std::vector<OccupancyMap::Slot> slots;  ///< The brick of each voxel; kNoBrick if there is none.
   std::vector<VoxelState> states;
-
-  /// A brick that was found before. Points of the same part of a scan see much the same bricks from
-  /// scan to scan, and the hash grid of a large map is too large for a processor's cache.
-  struct KnownBrick {
-    VoxelKey key = ~VoxelKey{0};
-    OccupancyMap::Slot slot = OccupancyMap::kNoBrick;
-  };
-  bool remembers = false;  ///< True for look-ups scan after scan in one map.
-  std::vector<std::vector<KnownBrick>>
-      bricks;  ///< The bricks found before, by part of the scan, then by place.
 };
 
 /// The map M of the paper, and the voxels that were seen through, which are never filled again.
@@ -66,12 +56,8 @@ class StaticMap {
   void erase(const VoxelIndex& voxel);
 
  private:
-  /// `find_slot` with the help of a table of bricks found before.
-  [[nodiscard]] Slot find_known(const Eigen::Vector3i& brick,
-                                std::vector<VoxelLookup::KnownBrick>& table) const;
-  template <class FindSlot>
   void find_slots(const std::vector<VoxelIndex>& voxels, std::size_t begin, std::size_t end,
-                  FindSlot&& find_slot, std::vector<Slot>& slots) const;
+                  std::vector<Slot>& slots) const;
   [[nodiscard]] VoxelState state(Slot slot, const VoxelIndex& voxel) const;
   static constexpr std::uint32_t kNothingErased = ~std::uint32_t{0};
 

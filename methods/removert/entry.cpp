@@ -5,18 +5,18 @@ namespace raymoval {
 namespace {
 
 /// Everything the public code and its port share.
-Configuration code_preset() {
+Configuration removert_code() {
   return {{"difference", std::string("absolute")}, {"clamp_fov", true}, {"wrap_azimuth", false}};
 }
 
-Configuration with(Configuration base, const Configuration& more) {
+Configuration removert_with(Configuration base, const Configuration& more) {
   base.insert(base.end(), more.begin(), more.end());
   return base;
 }
 
 /// The first is what the bare name means.
-std::vector<MethodVariant> variants() {
-  const Configuration code = code_preset();
+std::vector<MethodVariant> removert_variants() {
+  const Configuration code = removert_code();
   return {
       {"rm3", "Three remove passes.", false, {}},
       {"rm3-rv1",
@@ -24,11 +24,11 @@ std::vector<MethodVariant> variants() {
        false,
        {{"revert_resolution_1", 1.8182}}},
       {"code", "As the public code answers, its faults included.", false,
-       with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
+       removert_with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
       {"port",
-       "As the ROS-free port answers, which tests the same map in every pass, with images along the "
-       "sensor's axes.",
-       false, with(code, {{"update_between_passes", false}})},
+       "As the ROS-free port answers with images along the sensor's axes; it tests the same map in "
+       "every pass.",
+       false, removert_with(code, {{"update_between_passes", false}})},
   };
 }
 
@@ -62,7 +62,7 @@ MethodEntry removert_entry() {
       "No KD-tree ball and no empty-pixel value: every map point is compared, and an empty pixel "
       "is empty.",
   };
-  entry.variants = variants();
+  entry.variants = removert_variants();
   entry.bind(removert_method::parameter_table(), removert_method::make_removert);
   return entry;
 }

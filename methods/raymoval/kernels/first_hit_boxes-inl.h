@@ -9,8 +9,6 @@
 #endif
 
 #include <array>
-#include <bit>
-#include <cstring>
 
 #include "hwy/highway.h"
 #include "methods/raymoval/kernels/first_hit_sweep.h"
@@ -38,10 +36,9 @@ enum Field : std::size_t {
   kHighA,
   kLowB,
   kHighB,
-  kNear,               ///< The walls on the sensor's side, x, y, z.
-  kFar = kNear + 3,    ///< The other ones.
-  kPacked = kFar + 3,  ///< The bits of the BrickBox.
-  kFields,
+  kNear,             ///< The walls on the sensor's side, x, y, z.
+  kFar = kNear + 3,  ///< The other ones.
+  kFields = kFar + 3,
 };
 constexpr std::size_t kGroupFloats = kFields * kGroup;
 
@@ -50,7 +47,6 @@ struct Pieces {
   float* values;
   std::size_t capacity;
   std::size_t count = 0;
-  [[nodiscard]] float* packed() const { return values + 6 * capacity; }
   [[nodiscard]] float* low(std::size_t axis) const { return values + axis * capacity; }
   [[nodiscard]] float* high(std::size_t axis) const { return values + (axis + 3) * capacity; }
 };
@@ -59,62 +55,48 @@ constexpr std::size_t kMostPieces = 2048;
 
 /// Adds a box, cut at the planes through the sensor, so that for every piece it is known which of
 /// its walls a ray can enter by.
-void add_piece(Pieces& pieces, BrickBox box, std::array<float, 3> low, std::array<float, 3> high) {
+void add_piece(Pieces& pieces, std::array<float, 3> low, std::array<float, 3> high) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(low[k] < 0.0F && high[k] > 0.0F)) continue;
     std::array<float, 3> cut = high;
     cut[k] = 0.0F;
-    add_piece(pieces, box, low, cut);
+    add_piece(pieces, low, cut);
     low[k] = 0.0F;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     pieces.low(k)[pieces.count] = low[k];
     pieces.high(k)[pieces.count] = high[k];
   }
-  pieces.packed()[pieces.count] = std::bit_cast<float>(box.packed);
   ++pieces.count;
 }
 
-/// The boxes of a brick that no plane through the sensor cuts.
-void load_boxes(const Frame& frame, std::size_t brick, Pieces& pieces) {
-  const Ints d;
-  const hn::RebindToUnsigned<Floats> bits;
-  const auto boxes = frame.map->boxes(frame.bricks->slot[brick]);
-  std::size_t i = 0;
-  for (; i < boxes.size(); i += hn::Lanes(d)) {
-    alignas(kSimdAlignment) std::uint32_t packed[kGroup] = {};
-    std::memcpy(packed, boxes.data() + i,
-                std::min(hn::Lanes(d), boxes.size() - i) * sizeof(std::uint32_t));
-    auto word = hn::Load(bits, packed);
-    hn::Store(hn::BitCast(Floats(), word), Floats(), pieces.packed() + i);
-    const auto next = [&] {
-      const auto value = hn::BitCast(d, hn::And(word, hn::Set(bits, 7U)));
-      word = hn::ShiftRight<3>(word);
-      return value;
-    };
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float* walls = frame.planes[k] + frame.bricks->plane[k][brick];
-      hn::Store(hn::GatherIndex(Floats(), walls, next()), Floats(), pieces.low(k) + i);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float* walls = frame.planes[k] + frame.bricks->plane[k][brick] + 1;
-      hn::Store(hn::GatherIndex(Floats(), walls, next()), Floats(), pieces.high(k) + i);
-    }
-  }
-  pieces.count = boxes.size();
+/// Whether a ray may enter a brick before the minimum range.
+bool reaches_minimum(const Frame& frame, std::size_t brick) {
+  return frame.bricks->nearest[brick] < frame.minimum_range;
 }
 
-/// The boxes of a brick that the sensor stands beside in some axis.
-void cut_boxes(const Frame& frame, std::size_t brick, Pieces& pieces) {
-  std::array<const float*, 3> walls;
-  for (std::size_t k = 0; k < 3; ++k) walls[k] = frame.planes[k] + frame.bricks->plane[k][brick];
-  for (const BrickBox& box : frame.map->boxes(frame.bricks->slot[brick])) {
+/// Adds the boxes of a brick. Of one that reaches into the minimum range it adds the voxels, since
+/// a ray that is inside a box at the minimum range may enter its next voxel later.
+void load_boxes(const Frame& frame, std::size_t brick, Pieces& pieces) {
+  const auto add = [&](const BrickBox& box) {
     std::array<float, 3> low, high;
     for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = walls[k][box.first(k)];
-      high[k] = walls[k][box.last(k) + 1];
+      const float* walls = frame.planes[k] + frame.bricks->plane[k][brick];
+      low[k] = walls[box.first(k)];
+      high[k] = walls[box.last(k) + 1];
     }
-    add_piece(pieces, box, low, high);
+    add_piece(pieces, low, high);
+  };
+  const OccupancyMap::Slot slot = frame.bricks->slot[brick];
+  if (!reaches_minimum(frame, brick)) {
+    for (const BrickBox& box : frame.map->boxes(slot)) add(box);
+    return;
+  }
+  for (int k = 0; k < 512; ++k) {
+    const std::array<int, 3> voxel = {k >> 6, k >> 3 & 7, k & 7};
+    if (frame.map->brick(slot).contains(voxel[0], voxel[1], voxel[2])) {
+      add(BrickBox::from(voxel, voxel));
+    }
   }
 }
 
@@ -143,7 +125,6 @@ void store_group(const Frame& frame, const Pieces& pieces, std::size_t i, float*
     hn::Store(hn::IfThenElse(ahead, low[k], high[k]), d, group + (kNear + k) * kGroup);
     hn::Store(hn::IfThenElse(ahead, high[k], low[k]), d, group + (kFar + k) * kGroup);
   }
-  hn::Store(hn::Load(d, pieces.packed() + i), d, group + kPacked * kGroup);
   hn::Store(height_low, d, group + kHeightLow * kGroup);
   hn::Store(height_high, d, group + kHeightHigh * kGroup);
   for (std::size_t level = 0; level < 2; ++level) {
@@ -155,22 +136,9 @@ void store_group(const Frame& frame, const Pieces& pieces, std::size_t i, float*
   }
 }
 
-/// Whether some of the brick's voxels may be entered before the minimum range.
-bool reaches_minimum(const Frame& frame, float nearest) {
-  return nearest < frame.minimum_range;
-}
-
 void expand(const Frame& frame, std::size_t brick, Scratch& scratch) {
   Pieces pieces{scratch.pieces.data(), kMostPieces};
-  bool beside = false;
-  for (std::size_t k = 0; k < 3; ++k) {
-    beside |= frame.bricks->low[k][brick] < 0.0F && frame.bricks->high[k][brick] > 0.0F;
-  }
-  if (beside) {
-    cut_boxes(frame, brick, pieces);
-  } else {
-    load_boxes(frame, brick, pieces);
-  }
+  load_boxes(frame, brick, pieces);
   const std::size_t groups = (pieces.count + kGroup - 1) / kGroup;
   scratch.expanded[brick] = {static_cast<std::uint32_t>(scratch.boxes_used),
                              static_cast<std::uint32_t>(pieces.count), true};

@@ -184,65 +184,18 @@ HWY_INLINE Crossing cross_box(const float* box, const Rays& rays) {
           hn::Min(hn::Min(at(kFar, 0), at(kFar, 1)), at(kFar, 2))};
 }
 
-HWY_INLINE F nearer_hit(const float* box, const Rays& rays, F depth) {
+HWY_INLINE F nearer_hit(const float* box, const Rays& rays, F minimum, F depth) {
   const Crossing crossing = cross_box(box, rays);
-  const auto hit = hn::And(hn::Le(crossing.enter, crossing.leave), hn::Lt(crossing.enter, depth));
-  return hn::IfThenElse(hit, crossing.enter, depth);
+  const auto entered =
+      hn::And(hn::Le(crossing.enter, crossing.leave), hn::Ge(crossing.enter, minimum));
+  return hn::IfThenElse(hn::And(entered, hn::Lt(crossing.enter, depth)), crossing.enter, depth);
 }
 
-/// The same for the voxels of a box one by one, if entered after the minimum range.
-HWY_NOINLINE F nearer_voxel(const Frame& frame, std::size_t brick, std::uint32_t packed,
-                            const Rays& rays, F depth) {
-  const Floats d;
-  const F minimum = hn::Set(d, frame.minimum_range);
-  const BrickBox box{packed};
-  const auto slab = [&](std::size_t axis, int at) {
-    const float* wall = frame.planes[axis] + frame.bricks->plane[axis][brick] + at;
-    const F a = hn::Mul(hn::Set(d, wall[0]), rays.inverse[axis]);
-    const F b = hn::Mul(hn::Set(d, wall[1]), rays.inverse[axis]);
-    return Crossing{hn::Min(a, b), hn::Max(a, b)};
-  };
-  for (int x = box.first(0); x <= box.last(0); ++x) {
-    const Crossing in_x = slab(0, x);
-    for (int y = box.first(1); y <= box.last(1); ++y) {
-      const Crossing in_y = slab(1, y);
-      const F enter_xy = hn::Max(in_x.enter, in_y.enter);
-      const F leave_xy = hn::Min(in_x.leave, in_y.leave);
-      for (int z = box.first(2); z <= box.last(2); ++z) {
-        const Crossing in_z = slab(2, z);
-        const F enter = hn::Max(enter_xy, in_z.enter);
-        const auto crossed = hn::Le(enter, hn::Min(leave_xy, in_z.leave));
-        const auto hit = hn::And(crossed, hn::And(hn::Ge(enter, minimum), hn::Lt(enter, depth)));
-        depth = hn::IfThenElse(hit, enter, depth);
-      }
-    }
-  }
-  return depth;
-}
-
-/// For a box that reaches into the minimum range. Rays that are inside it there may enter its next
-/// voxel later.
-HWY_INLINE F nearer_hit_after_minimum(const Frame& frame, std::size_t brick, const float* box,
-                                      const Rays& rays, F depth) {
-  const Floats d;
-  const F minimum = hn::Set(d, frame.minimum_range);
-  const Crossing crossing = cross_box(box, rays);
-  const auto crossed = hn::Le(crossing.enter, crossing.leave);
-  const auto early = hn::Lt(crossing.enter, minimum);
-  const auto inside = hn::And(crossed, hn::And(early, hn::Ge(crossing.leave, minimum)));
-  const auto hit = hn::And(crossed, hn::Lt(crossing.enter, depth));
-  depth = hn::IfThenElse(hn::AndNot(early, hit), crossing.enter, depth);
-  if (hn::AllFalse(d, inside)) return depth;
-  return nearer_voxel(frame, brick, std::bit_cast<std::uint32_t>(box[kPacked * kGroup]), rays,
-                      depth);
-}
-
-template <bool kAtMinimum>
 void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& entry,
                  Scratch& scratch) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  const F nearest = hn::Set(d, entry.nearest);
+  const F nearest = hn::Set(d, entry.nearest), minimum = hn::Set(d, frame.minimum_range);
   const float* boxes = nullptr;
   std::size_t groups = 0;
   const std::size_t first = column.lines_below(entry.first_row);
@@ -276,11 +229,7 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
           boxes_between(group, scratch.bounds.data() + g * 2 * kGroup, below, above);
       for (; left != 0; left &= left - 1) {
         const float* box = group + std::countr_zero(left);
-        if constexpr (kAtMinimum) {
-          depth = nearer_hit_after_minimum(frame, entry.brick, box, rays, depth);
-        } else {
-          depth = nearer_hit(box, rays, depth);
-        }
+        depth = nearer_hit(box, rays, minimum, depth);
       }
     }
     hn::Store(depth, d, column.depth + line);
@@ -298,7 +247,7 @@ void write_column(const Frame& frame, int i, const Column& column, float* range)
 
 void prepare_scratch(const Frame& frame, Scratch& scratch) {
   const auto rows = static_cast<std::size_t>(frame.grid->padded_rows);
-  scratch.pieces.require(7 * kMostPieces);
+  scratch.pieces.require(6 * kMostPieces);
   scratch.bounds.require(2 * kMostPieces);
   scratch.crossing.resize(kMostPieces / kGroup);
   scratch.row.require(rows + kGroup);  // Vectors are stored beyond what they hold.
@@ -319,12 +268,7 @@ void sweep_all(const Frame& frame, const ColumnLists& lists, int begin, int end,
     const auto at = static_cast<std::size_t>(i - lists.begin);
     const Column column = start_column(frame, i, scratch);
     for (std::uint32_t e = lists.starts[at]; e < lists.starts[at + 1]; ++e) {
-      const ColumnEntry& entry = lists.entries[e];
-      if (reaches_minimum(frame, entry.nearest)) {
-        sweep_brick<true>(frame, column, entry, scratch);
-      } else {
-        sweep_brick<false>(frame, column, entry, scratch);
-      }
+      sweep_brick(frame, column, lists.entries[e], scratch);
     }
     write_column(frame, i, column, range);
   }

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "core/angle.h"
-#include "core/simd/instruction_set_scope.h"
-#include "methods/raymoval/validation.h"
 #include "methods/raymoval/consistency.h"
-#include "methods/raymoval/map_reference.h"
 #include "methods/raymoval/static_map.h"
+#include "methods/raymoval/validation.h"
 #include "tests/methods/raymoval/random_map.h"
 
 namespace raymoval::raymoval_test {
@@ -45,7 +42,7 @@ std::vector<float> values_around(const std::vector<float>& values, const BinWind
 
 }  // namespace
 
-TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "[raymoval][simd]") {
+TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "[raymoval]") {
   Random random(41);
   std::size_t total = 0;
   for (int round = 0; round < 30; ++round) {
@@ -75,48 +72,14 @@ TEST_CASE("bins seen through are those whose whole neighbourhood lies behind", "
       }
     }
     total += expected.size();
-    for (const InstructionSet set : supported_instruction_sets()) {
-      const InstructionSetScope scope(set);
-      INFO(instruction_set_name(set) << ", round " << round);
-      const auto found = find_seen_through(scan, window, hits, reference, margin, 2);
-      REQUIRE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
-                         [](const SeenThrough& a, const SeenThrough& b) {
-                           return a.bin == b.bin && a.nearest_return == b.nearest_return;
-                         }));
-    }
+    INFO("round " << round);
+    const auto found = find_seen_through(scan, window, hits, reference, margin, 2);
+    REQUIRE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                       [](const SeenThrough& a, const SeenThrough& b) {
+                         return a.bin == b.bin && a.nearest_return == b.nearest_return;
+                       }));
   }
   CHECK(total > 100);
-}
-
-TEST_CASE("percentiles of full windows equal those of each window", "[raymoval][simd]") {
-  Random random(43);
-  for (int round = 0; round < 20; ++round) {
-    const BinWindow window{{random.integer(16, 70), random.integer(3, 12), 0.0, 0.3}, 1, 1};
-    const auto values = random_ranges(window.grid.size(), round % 2 == 0 ? 0.0 : 0.01, 9, random);
-    const auto wanted = random_ranges(window.grid.size(), 0.5, 9, random);
-    const std::array<std::optional<double>, 2> quantiles =
-        round % 3 == 0   ? std::array<std::optional<double>, 2>{0.9, 0.1}
-        : round % 3 == 1 ? std::array<std::optional<double>, 2>{std::nullopt, 0.5}
-                         : std::array<std::optional<double>, 2>{0.1, std::nullopt};
-    for (const InstructionSet set : supported_instruction_sets()) {
-      const InstructionSetScope scope(set);
-      INFO(instruction_set_name(set) << ", round " << round);
-      WindowPercentiles found;
-      windowed_percentiles(values, wanted, window.grid, 1, quantiles, 2, found);
-      for (int bin = 0; bin < window.grid.size(); ++bin) {
-        const auto at = static_cast<std::size_t>(bin);
-        if (wanted[at] == kNoRange) continue;
-        auto around = values_around(values, window, bin);
-        std::erase(around, kNoRange);
-        std::sort(around.begin(), around.end());
-        const auto expected = [&](double q) {
-          return percentile_of_sorted(around.data(), static_cast<int>(around.size()), q);
-        };
-        if (quantiles[0]) REQUIRE(found.first[at] == expected(*quantiles[0]));
-        if (quantiles[1]) REQUIRE(found.second[at] == expected(*quantiles[1]));
-      }
-    }
-  }
 }
 
 TEST_CASE("components join all voxels within the gap, and no others", "[raymoval]") {

@@ -17,33 +17,48 @@ using Counts = std::vector<std::uint32_t>;
 /// Cells so small that each point has its own.
 const CellLattice kFine(0.01);
 
-/// Votes for the points in the order of `map`.
-Counts votes(const Points& map, const Points& scan, const Parameters& parameters,
-             Candidates candidates, const Pose& T_world_sensor = Pose::Identity(),
-             double resolution = 2.5) {
-  MapBuilder builder(kFine);
-  builder.add(map, Pose::Identity(), 1);
-  const MapPoints points = builder.finish();
-  REQUIRE(points.size() == map.size());
-  VisibilityPass pass(points, parameters, candidates);
-  const ScanImage image(scan, PixelGrid(parameters, resolution), parameters, candidates);
-  pass.show(image, T_world_sensor.inverse());
-  VoxelMap<std::uint32_t> of_cell;
-  for (const Block& block : points.blocks) {
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      of_cell[voxel_key(kFine.cell_index(block.key, points.id[i]))] = pass.dynamic_votes()[i];
+/// A map of these points, and the place of each of them in it.
+struct NumberedMap {
+  explicit NumberedMap(const Points& input) {
+    MapBuilder builder(kFine);
+    builder.add(input, Pose::Identity(), 1);
+    points = builder.finish();
+    REQUIRE(points.size() == input.size());
+    VoxelMap<std::size_t> of_cell;
+    for (const Block& block : points.blocks) {
+      for (std::size_t i = block.begin; i < block.end; ++i) {
+        of_cell[voxel_key(kFine.cell_index(block.key, points.id[i]))] = i;
+        positions.push_back(points.position(block, i));
+      }
+    }
+    for (const Eigen::Vector3f& point : input) {
+      place.push_back(of_cell.at(voxel_key(kFine.place_of(point.cast<double>()).index)));
     }
   }
-  Counts by_input;
-  for (const Eigen::Vector3f& point : map) {
-    by_input.push_back(of_cell.at(voxel_key(kFine.place_of(point.cast<double>()).index)));
-  }
-  return by_input;
+  MapPoints points;
+  std::vector<Eigen::Vector3d> positions;  ///< In the order of `points`.
+  std::vector<std::size_t> place;
+};
+
+/// Votes in the order of the map's points.
+Counts votes(const NumberedMap& map, const Points& scan, const Parameters& parameters,
+             Candidates candidates, const Pose& T_world_sensor = Pose::Identity(),
+             double resolution = 2.5) {
+  VisibilityPass pass(map.points, parameters, candidates);
+  const ScanImage image(scan, PixelGrid(parameters, resolution), parameters, candidates);
+  pass.show(image, T_world_sensor.inverse());
+  return pass.dynamic_votes();
 }
 
+/// Votes in the order of `map`.
 Counts dynamic(const Points& map, const Points& scan, const Parameters& parameters = {}) {
   const bool absolute = parameters.difference == DifferenceRule::kAbsolute;
-  return votes(map, scan, parameters, absolute ? Candidates::kAll : Candidates::kInFront);
+  const NumberedMap numbered(map);
+  const Counts found =
+      votes(numbered, scan, parameters, absolute ? Candidates::kAll : Candidates::kInFront);
+  Counts counts;
+  for (const std::size_t place : numbered.place) counts.push_back(found[place]);
+  return counts;
 }
 
 }  // namespace
@@ -80,7 +95,7 @@ TEST_CASE("removert: ground below the field of view is not judged by the lowest 
 }
 
 TEST_CASE("removert: behind the sensor the image has no seam") {
-  const Points map{{-10, -0.0175F, 0}}, scan{{-20, 0.035F, 0}};
+  const Points map{{-10, -0.0175F, 0.02F}}, scan{{-20, 0.035F, 0.04F}};
   Parameters parameters;
   CHECK(dynamic(map, scan, parameters) == Counts{1});
   parameters.wrap_azimuth = false;
@@ -89,7 +104,7 @@ TEST_CASE("removert: behind the sensor the image has no seam") {
 
 TEST_CASE("removert: where the scan has no return nothing is decided") {
   for (const Candidates candidates : {Candidates::kInFront, Candidates::kAll}) {
-    CHECK(votes({ahead(15)}, {aside(15)}, {}, candidates) == Counts{0});
+    CHECK(votes(NumberedMap({ahead(15)}), {aside(15)}, {}, candidates) == Counts{0});
   }
 }
 
@@ -110,8 +125,8 @@ TEST_CASE("removert: a thin pole goes where a ray passes beside it in the same p
 namespace {
 
 /// Projects every point of the map, in double precision and without any shortcut.
-Counts slow_votes(const Points& map, const Points& scan, const Parameters& parameters,
-                  const Pose& T_world_sensor, double resolution) {
+Counts slow_votes(const std::vector<Eigen::Vector3d>& map, const Points& scan,
+                  const Parameters& parameters, const Pose& T_world_sensor, double resolution) {
   const PixelGrid grid(parameters, resolution);
   const auto pixels = static_cast<std::size_t>(grid.size());
   std::vector<float> in_scan(pixels, -1.0F);
@@ -125,7 +140,7 @@ Counts slow_votes(const Points& map, const Points& scan, const Parameters& param
   std::vector<std::optional<std::size_t>> in_map(pixels);
   std::vector<double> ranges;
   for (std::size_t i = 0; i < map.size(); ++i) {
-    const Eigen::Vector3d local = T_world_sensor.inverse() * map[i].cast<double>();
+    const Eigen::Vector3d local = T_world_sensor.inverse() * map[i];
     ranges.push_back(local.norm());
     const int pixel = grid.pixel_of(local);
     if (pixel < 0) continue;
@@ -180,13 +195,14 @@ TEST_CASE("removert: shortcuts change no vote") {
     if ((round & 16) != 0) parameters.diff_upper = 10.0;
     const bool all = (round & 4) != 0 || (round & 32) != 0;
     const Candidates candidates = all ? Candidates::kAll : Candidates::kInFront;
-    const Points map = random_cloud(random, 6000, 40.0), scan = random_cloud(random, 2000, 60.0);
+    const NumberedMap map(random_cloud(random, 6000, 40.0));
+    const Points scan = random_cloud(random, 2000, 60.0);
     const Pose pose = random_pose(random);
     // With few pixels the map is large enough for near points to hide far ones.
     const double resolution = round % 3 == 0 ? 0.2 : 1.0;
     const Counts fast = votes(map, scan, parameters, candidates, pose, resolution);
     INFO("round " << round);
-    CHECK(fast == slow_votes(map, scan, parameters, pose, resolution));
+    CHECK(fast == slow_votes(map.positions, scan, parameters, pose, resolution));
     for (const std::uint32_t count : fast) dynamic_votes += count;
   }
   CHECK(dynamic_votes > 5000);
