@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "methods/beautymap/judgement.h"
+#include "methods/beautymap/column_map.h"
 #include "methods/common/answers.h"
 #include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -129,5 +128,29 @@ class ColumnMap {
 LowestPoints lowest_points(const Scan& scan, const Lattice& lattice);
 /// Adds those of a scan to those of all.
 void add_lowest(const LowestPoints& of_scan, LowestPoints& lowest);
+
+/// What one scan says of the map.
+struct Marks {
+  struct Slices {
+    std::uint32_t column;
+    std::uint32_t slices;  ///< Bit i: slice i goes.
+  };
+  struct Parts {
+    std::uint32_t column;
+    int slice;
+    std::uint32_t parts;  ///< Bit i: part i of the slice goes.
+  };
+  std::vector<Slices> slices;
+  std::vector<Parts> parts;
+};
+
+/// Section B of the description: what the map has and the scan has not, where nothing says that the
+/// scan could not see it.
+/// @param placed where the scan's points are in the map
+Marks judge(const Parameters& parameters, const ColumnMap& map, const Scan& scan,
+            const std::vector<PlacedPoint>& placed);
+
+/// Adds what a scan says to the map.
+void add_marks(const Marks& marks, ColumnMap& map);
 
 }  // namespace raymoval::beautymap_method

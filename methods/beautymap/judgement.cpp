@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/beautymap/judgement.h"
+#include "methods/beautymap/column_map.h"
 
 #include "core/sampling.h"
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/scan/scan.h"
 #include "methods/common/scan_grid.h"
+#include "methods/common/sparse_blocks.h"
 #include "methods/dufomap/dufomap.h"
 #include "methods/remover.h"
 
@@ -69,5 +71,26 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
 /// @throws DataError for a beam of more than 131,072 voxels; Cancelled
 void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
                 ScanGrid& grid, const RunContext& context = {});
+
+/// Void voxels of a block, a word for each column.
+using VoidBits = std::array<std::uint64_t, kColumns>;
+
+/// Void voxels of one scan by block.
+using ScanVoids = std::vector<std::pair<VoxelIndex, VoidBits>>;
+
+/// Step 4: voxels that are not hit and whose (2 d_p + 1)^3 neighbourhood is all free.
+/// @param inflation d_p, voxels, at most a block's side
+void find_voids(const ScanGrid& grid, int inflation, ScanVoids& voids);
+
+/// Step 5: the voids of all scans so far, 8 KiB a block of 32 x 32 x 64 voxels.
+class VoidMap {
+ public:
+  void add(const ScanVoids& voids);
+  /// 1 for each voxel that is a void.
+  [[nodiscard]] std::vector<std::uint8_t> contain(const std::vector<VoxelIndex>& voxels) const;
+
+ private:
+  SparseBlocks<VoidBits> blocks_;
+};
 
 }  // namespace raymoval::dufomap_method

@@ -6,7 +6,6 @@
 #include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"
 #include "methods/dufomap/beams.h"
-#include "methods/dufomap/void_map.h"
 
 namespace raymoval::dufomap_method {
 namespace {

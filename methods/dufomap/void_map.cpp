@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/dufomap/void_map.h"
+#include "methods/dufomap/beams.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/dynablox/clusters.h"
+#include "methods/dynablox/voxels.h"
 
 #include <algorithm>
 #include <utility>

@@ -8,9 +8,8 @@
 #include "core/text.h"
 #include "methods/common/answers.h"
 #include "methods/common/remover_from.h"
-#include "methods/dynablox/clusters.h"
-#include "methods/dynablox/free_space.h"
-#include "methods/dynablox/integration.h"
+#include "methods/dynablox/field.h"
+#include "methods/dynablox/voxels.h"
 
 namespace raymoval::dynablox_method {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/dynablox/free_space.h"
+#include "methods/dynablox/field.h"
 
 #include <algorithm>
 #include <array>

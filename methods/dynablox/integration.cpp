@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/dynablox/integration.h"
+#include "methods/dynablox/field.h"
 
 #include <algorithm>
 #include <array>

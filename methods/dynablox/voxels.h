@@ -8,6 +8,7 @@
 
 #include "core/scan/scan.h"
 #include "methods/common/sparse_blocks.h"
+#include "methods/dynablox/dynablox.h"
 
 namespace raymoval::dynablox_method {
 
@@ -70,5 +71,12 @@ struct ScanVoxels {
 
 /// Steps 1 and 2.
 void find_voxels(const Scan& scan, double voxel_size, ScanVoxels& found);
+
+/// Points of a scan that move together, ascending.
+using Cluster = std::vector<std::uint32_t>;
+
+/// Steps 3 to 5: the clusters of a scan.
+std::vector<Cluster> find_clusters(const ScanVoxels& scan, const BlockMap& map,
+                                   const Parameters& parameters);
 
 }  // namespace raymoval::dynablox_method

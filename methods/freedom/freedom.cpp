@@ -9,8 +9,7 @@
 #include "methods/common/prepared_scans.h"
 #include "methods/common/remover_from.h"
 #include "methods/freedom/depth_image.h"
-#include "methods/freedom/free_map.h"
-#include "methods/freedom/static_map.h"
+#include "methods/freedom/maps.h"
 
 namespace raymoval::freedom_method {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/freedom/static_map.h"
+#include "methods/freedom/maps.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/peopleremover/beam_ends.h"
+#include "methods/peopleremover/beams.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -8,9 +8,8 @@
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/common/workspaces.h"
-#include "methods/peopleremover/beam_ends.h"
+#include "methods/peopleremover/beams.h"
 #include "methods/peopleremover/bricks.h"
-#include "methods/peopleremover/traversal.h"
 
 namespace raymoval::peopleremover_method {
 namespace {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "methods/beautymap/judgement.h"
+#include "methods/beautymap/column_map.h"
 #include "tests/methods/beautymap/oracle.h"
 #include "tests/methods/moved_world.h"
 

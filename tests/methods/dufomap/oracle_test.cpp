@@ -6,7 +6,6 @@
 
 #include "methods/dufomap/beams.h"
 #include "methods/dufomap/dufomap.h"
-#include "methods/dufomap/void_map.h"
 #include "tests/methods/grid_cells.h"
 #include "tests/methods/toy_world.h"
 

@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 
 #include "methods/dufomap/beams.h"
-#include "methods/dufomap/void_map.h"
 #include "tests/methods/dufomap/oracle.h"
 #include "tests/methods/grid_cells.h"
 #include "tests/methods/held_scans.h"

@@ -5,8 +5,7 @@
 #include <functional>
 
 #include "core/angle.h"
-#include "methods/dynablox/free_space.h"
-#include "methods/dynablox/integration.h"
+#include "methods/dynablox/field.h"
 
 namespace raymoval::dynablox_test {
 using namespace raymoval::dynablox_method;

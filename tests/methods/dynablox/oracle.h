@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "methods/dynablox/integration.h"
+#include "methods/dynablox/field.h"
 
 namespace raymoval::dynablox_test {
 

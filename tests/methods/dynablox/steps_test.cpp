@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/angle.h"
-#include "methods/dynablox/clusters.h"
-#include "methods/dynablox/integration.h"
+#include "methods/dynablox/field.h"
+#include "methods/dynablox/voxels.h"
 #include "tests/methods/dynablox/oracle.h"
 #include "tests/methods/held_scans.h"
 

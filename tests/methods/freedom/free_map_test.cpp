@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/freedom/free_map.h"
+#include "methods/freedom/maps.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

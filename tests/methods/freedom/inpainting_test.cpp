@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/freedom/inpainting.h"
+#include "methods/freedom/depth_image.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

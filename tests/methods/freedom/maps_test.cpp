@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 
-#include "methods/freedom/static_map.h"
+#include "methods/freedom/maps.h"
 
 namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;

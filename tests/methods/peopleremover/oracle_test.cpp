@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/scan/voxel_key.h"
-#include "methods/peopleremover/beam_ends.h"
+#include "methods/peopleremover/beams.h"
 #include "tests/methods/moved_world.h"
 #include "tests/methods/peopleremover/listed_scans.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/peopleremover/traversal.h"
+#include "methods/peopleremover/beams.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -13,6 +13,31 @@
 
 namespace raymoval::dynablox_method {
 
+/// Step 7: which voxels are ever free.
+class FreeSpace {
+ public:
+  explicit FreeSpace(const Parameters& parameters)
+      : parameters_(parameters), kernels_(kernels::best_kernels()) {}
+
+  /// Looks at blocks again, when a scan has come and before it is integrated.
+  /// @param touched the blocks that the scan before went through
+  /// @param hits the voxels in which the scan has points
+  void update(const std::vector<Block*>& touched, const SparseBlocks<BlockBits>& hits,
+              std::int32_t scan, const RunContext& context, BlockMap& map) const;
+
+ private:
+  /// Finds the settled voxels of a block.
+  /// @param is_touched whether the scan before went through it, so that it is seen which voxels are
+  /// occupied
+  /// @return the voxels that are to be reset
+  std::vector<VoxelIndex> sweep(const BlockBits* hit, bool is_touched, std::int32_t scan,
+                                Block& block) const;
+  void add_ever_free(const BlockMap& map, Block& block) const;
+
+  Parameters parameters_;
+  kernels::Kernels kernels_;
+};
+
 /// The spherical image of ranges around a sensor. Columns go around the whole circle from azimuth
 /// -pi, each as wide as the next; rows go up, the first and the last are centred on the ends of the
 /// vertical field of view.
