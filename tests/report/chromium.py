@@ -22,7 +22,7 @@ def find():
 class Browser:
     """One page. What it logs as an error, throws or asks the network for stands in `problems`."""
 
-    def __init__(self, program, width=1280, height=900, dark=False, limit_s=300.0):
+    def __init__(self, program, width=1280, height=900, dark=False, limit_s=300.0, flags=()):
         self._profile = tempfile.mkdtemp(prefix="raymoval-chromium-")
         self._deadline = time.monotonic() + limit_s
         to_read, self._write = os.pipe()
@@ -37,7 +37,8 @@ class Browser:
             [program, "--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--no-first-run",
              "--disable-dev-shm-usage", "--disable-background-networking", "--hide-scrollbars",
              "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
-             f"--user-data-dir={self._profile}", f"--window-size={width},{height}", "about:blank"],
+             f"--user-data-dir={self._profile}", f"--window-size={width},{height}", *flags,
+             "about:blank"],
             preexec_fn=place, close_fds=False, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, start_new_session=True)
         os.close(to_read)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pages of a site in a headless Chromium, opened from disk, on a phone and on a screen, light and dark: nothing is wider
-than the window, every picture is shown, nothing comes from a network, and letters differ from their ground. 77: there is no Chromium.
+than the window, every picture is shown, nothing comes from a network, letters differ from their ground, and the search
+finds a parameter. 77: there is no Chromium.
 
     pages.py FOLDER"""
 import pathlib
@@ -26,11 +27,26 @@ CONTRAST = """(() => {
     .map((l) => (Math.max(l, ground) + 0.05) / (Math.min(l, ground) + 0.05));
   return Math.min(...ratios);
 })()"""
+# Typed once the search says that it is there: the theme tells its worker the words in a message that a query typed in the
+# moment before takes the place of, and then never answers.
+SEARCH = """(() => {
+  const said = document.querySelector(".md-search-result__meta");
+  const field = document.querySelector(".md-search__input");
+  if (field.value === "" && said.innerText.trim() !== "Initializing search") {
+    field.focus();
+    field.value = "minimum_horizontal_range";
+    field.dispatchEvent(new Event("keyup", {bubbles: true}));
+  }
+  return /\\d/.test(said.innerText);
+})()"""
+
 
 def look(site, width, dark):
     """What is wrong with the pages, a sentence each."""
     faults = []
-    with chromium.Browser(chromium.find(), width=width, height=844, dark=dark, limit_s=150) as browser:
+    # The search reads its index as it does from a server.
+    flags = ["--allow-file-access-from-files"]
+    with chromium.Browser(chromium.find(), width=width, height=844, dark=dark, limit_s=150, flags=flags) as browser:
         for page in PAGES:
             browser.open(str(site / page))
             name = f"{page}, {width} pixels, {'dark' if dark else 'light'}"
@@ -42,6 +58,14 @@ def look(site, width, dark):
             contrast = browser.run(CONTRAST)
             if contrast < 4.5:  # What WCAG asks for, level AA.
                 faults.append(f"{name}: some letters have a contrast of {contrast:.1f} only.")
+        if not dark:
+            try:
+                browser.wait(SEARCH)
+            except TimeoutError:
+                return [*faults, *browser.problems, f"{width} pixels: the search does not answer."]
+            found = browser.run("[...document.querySelectorAll('.md-search-result__link')].map((a) => a.href).join(' ')")
+            if "protocol-erasor" not in found:
+                faults.append(f"{width} pixels: the search for an option of erasor finds {found or 'nothing'}.")
         faults += browser.problems
     return faults
 

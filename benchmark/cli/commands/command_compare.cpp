@@ -4,7 +4,7 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
-#include "benchmark/result/speed/speed_comparison.h"
+#include "benchmark/result/speed/speed_record.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 
-#include "benchmark/result/speed/speed_comparison.h"
 #include "benchmark/result/speed/speed_record.h"
 #include "tests/datasets/temporary_folder.h"
 
