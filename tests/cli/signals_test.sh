@@ -153,7 +153,7 @@ holds "and a lock" compgen -G 'cache/simulated/*.lock'
 expect 0 "" run --sequence town:scans=1 --method noop --quiet --out other
 nothing_left "the next scene"
 
-# An external program whose daemon leaves parent and session.
+# An external program that leaves everything that can be left: parent, session, environment.
 mkdir method
 cat >method/manifest.json <<'JSON'
 { "name": "leaver", "sentence": "Leaves.", "source": "none", "version": "1", "online": false,
@@ -161,7 +161,7 @@ cat >method/manifest.json <<'JSON'
 JSON
 external=(run --sequence street --frames 0:2 --method external:method/manifest.json --quiet
   --only '*/leaver*')
-daemon="(setsid sh -c 'sleep $nap & sleep $nap & wait' >/dev/null 2>&1 &)"
+daemon="(env -i setsid sh -c 'sleep $nap & sleep $nap & wait' >/dev/null 2>&1 &)"
 # until_both: until both of them sleep.
 until_both="while [ \"\$(pgrep -cfx 'sleep $nap')\" -lt 2 ]; do sleep 0.02; done"
 echo "$daemon; $until_both; exit 0" >method/leave.sh

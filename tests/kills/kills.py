@@ -9,7 +9,7 @@ outputs to replace, `simulate`, and `run` on a scene that is not in the cache ye
 random share of the time that it takes a signal is sent (INT, TERM, HUP or KILL) to the program, to
 one of its descendants, or to all of them. SEED decides all of this; what the program is just doing
 then also depends on the machine. The method among others is an external program that starts a
-process without its parent and session. Afterwards
+process without parent, session and environment. Afterwards
 - the exit code is one that the signal may lead to,
 - no process that was started is left,
 - what has a final name is whole: as it was before, or as an undisturbed command makes it,
@@ -41,7 +41,7 @@ MANIFEST = {
 }
 # Answers that everything stays; meanwhile a daemon and a child sleep for a time that tells them.
 KEEP = """
-(setsid sh -c 'sleep NAP & wait' >/dev/null 2>&1 &)
+(env -i setsid sh -c 'sleep NAP & wait' >/dev/null 2>&1 &)
 sleep NAP &
 for scan in velodyne/*.bin; do
   perl -e 'print pack("V", 9) x ((-s $ARGV[0]) / 16)' "$scan" \
