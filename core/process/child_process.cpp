@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/process/child_process.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -15,9 +14,10 @@
 #include <csignal>
 #include <cstring>
 #include <system_error>
-#include <utility>
 
 #include "core/process/family_memory.h"
+#include "core/process/foster_parent.h"
+#include "core/process/output_tail.h"
 #include "core/process/process_family.h"
 #include "core/process/start_child.h"
 
@@ -27,7 +27,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTickMs = 20;
-constexpr std::size_t kTailBytes = 4096;
 
 /// What the files below a folder take on the disk. Files come and go meanwhile: what cannot be
 /// looked at does not count.
@@ -48,55 +47,13 @@ double folder_size_mib(const std::filesystem::path& folder) {
   return mib;
 }
 
-/// Takes what comes out of a pipe and keeps the last 4 KiB of it.
-class OutputTail {
- public:
-  explicit OutputTail(Descriptor pipe);
-
-  /// The pipe to wait for; -1 once nobody can write to it any more.
-  [[nodiscard]] int pipe() const { return pipe_.get(); }
-  /// Takes what is there without waiting, but at most 4 MiB: a program that never stops printing
-  /// must not hold up the clock.
-  void drain();
-  /// The last 4 KiB. If there was more, the text starts with a whole line where that is possible.
-  [[nodiscard]] std::string text() const;
-
- private:
-  Descriptor pipe_;
-  std::string text_;
-};
-
-OutputTail::OutputTail(Descriptor pipe) : pipe_(std::move(pipe)) {
-  ::fcntl(pipe_.get(), F_SETFL, O_NONBLOCK);
-}
-
-void OutputTail::drain() {
-  char buffer[65536];
-  for (int reads = 0; pipe_.valid() && reads < 64; ++reads) {
-    const ssize_t got = ::read(pipe_.get(), buffer, sizeof buffer);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return;
-    if (got == 0) pipe_.close();
-    text_.append(buffer, static_cast<std::size_t>(got));
-    if (text_.size() > 16 * kTailBytes) text_.erase(0, text_.size() - kTailBytes - 1);
-  }
-}
-
-std::string OutputTail::text() const {
-  if (text_.size() <= kTailBytes) return text_;
-  // One byte more than the tail: it tells whether the tail starts a line.
-  const std::string tail = text_.substr(text_.size() - kTailBytes - 1);
-  const std::size_t line = tail.find('\n');
-  return tail.substr(line == std::string::npos || line + 1 == tail.size() ? 1 : line + 1);
-}
-
 /// Watches a running child until it ends or has to be ended.
 class ChildWatch {
  public:
-  ChildWatch(const ChildSetup& setup, StartedChild child)
+  ChildWatch(const ChildSetup& setup, StartedChild child, const FosterParent& foster)
       : setup_(setup),
         child_(child.process),
-        family_(child.process, child.mark),
+        family_(child.process, child.mark, &foster),
         memory_(setup.limits.memory_mib),
         tail_(std::move(child.output)),
         handle_(static_cast<int>(::syscall(SYS_pidfd_open, child.process, 0))) {}
@@ -200,8 +157,12 @@ class ChildWatch {
 }  // namespace
 
 ChildEnd run_child(const ChildSetup& setup) {
-  StartedChild child = start_child(setup);
-  if (child.process >= 0) return ChildWatch(setup, std::move(child)).wait();
+  FosterParent foster;
+  StartedChild child = start_child(setup, foster.score());
+  if (child.process >= 0) {
+    foster.set_head(child.process);
+    return ChildWatch(setup, std::move(child), foster).wait();
+  }
   ChildEnd end;
   end.kind = ChildEnd::Kind::kNotStarted;
   end.code = child.reason;

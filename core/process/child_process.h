@@ -63,8 +63,9 @@ struct ChildEnd {
 /// not limited by RLIMIT_AS or RLIMIT_DATA, which count what is mapped and never touched (thread
 /// stacks, arenas, a sanitizer's shadow). The working folder is looked at about once a second.
 ///
-/// It waits for its own child only, so that this may be called beside other children and in several
-/// threads.
+/// Until this returns, this process is the foster parent of its descendants (see `FosterParent`).
+/// It waits for its child and that child's descendants only, so that this may be called beside
+/// other children and in several threads.
 ChildEnd run_child(const ChildSetup& setup);
 
 /// Why a child could not be started, and what to do about it: "no process can be started (Resource

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <ctime>
 #include <vector>
 
 namespace raymoval {
@@ -31,8 +32,9 @@ class Pace {
 ///
 /// Memory is what the system would have back if the family ended, without that of files on a disk:
 /// what processes share, after a fork or through shared memory, counts once (the sum of Pss_Anon
-/// and Pss_Shmem). A file in a file system without a disk (/dev/shm, memfd) counts while it is
-/// mapped.
+/// and Pss_Shmem), and so do files in a file system without a disk (/dev/shm, memfd) that the
+/// family holds open without mapping them and that were written since it began. Such a file counts
+/// nothing when it is neither open nor mapped: nothing tells then whose it is.
 ///
 /// The system counts shares by walking through all pages, so they are only looked at if the sum of
 /// what each process has (RssAnon and RssShmem), which is never less, exceeds the limit.
@@ -51,9 +53,12 @@ class FamilyMemory {
 
  private:
   [[nodiscard]] double proportional_mib(const std::vector<pid_t>& members);
+  [[nodiscard]] double unmapped_files_mib(const std::vector<pid_t>& members) const;
 
   double limit_mib_;
-  Pace share_pace_;
+  timespec began_{};
+  Pace share_pace_, file_pace_;
+  double files_mib_ = 0.0;
   double last_share_mib_ = 0.0, sum_then_mib_ = 0.0;  ///< Of the last look at shares.
   bool counts_shares_in_full_ = false;
 };

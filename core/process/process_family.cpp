@@ -52,7 +52,7 @@ void on_parent_ended(int) {
 /// next to nothing.
 void wait_for_parent_and_end() {
   while (::sem_wait(&parent_ended) != 0) continue;
-  ProcessFamily(::getpid(), innermost_mark()).end();
+  ProcessFamily(::getpid(), innermost_mark(), nullptr).end();
 }
 
 }  // namespace
@@ -81,6 +81,9 @@ ProcessFamily::Members ProcessFamily::stopped_members() const {
   add_with_descendants(head_, true, found);
   for (const pid_t process : all_processes()) {
     if (is_member(process)) add_with_descendants(process, true, found);
+  }
+  if (foster_ != nullptr) {
+    for (const pid_t child : foster_->foster_children()) add_with_descendants(child, true, found);
   }
   Members members;
   for (const pid_t process : found) {

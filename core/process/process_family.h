@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/process/foster_parent.h"
+
 namespace raymoval {
 
 /// The environment variable that tells the members of a family: it holds the mark of each family
@@ -15,15 +17,17 @@ inline constexpr const char* kFamilyVariable = "RAYMOVAL_PROCESS_FAMILY";
 
 /// A process with all that it has started, directly or through others.
 ///
-/// Members are found in three ways, since each of them can be left: as descendants of the head, by
-/// its session, and by a mark in the environment that they inherit. As long as the head lives, what
-/// its descendants leave behind becomes its child (PR_SET_CHILD_SUBREAPER, see `start_child`), so
-/// that double forks stay descendants.
+/// Members are found in four ways, since each of them can be left: as descendants of the head, by
+/// its session, by a mark in the environment that they inherit, and as foster children of this
+/// process. As long as the head lives, it is itself the foster parent of what its descendants leave
+/// behind (see `start_child`), so that double forks stay descendants; then this process is.
 class ProcessFamily {
  public:
   /// @param head which has not been waited for, so that its number is not used again
   /// @param mark part of the variable `kFamilyVariable` of all members
-  ProcessFamily(pid_t head, std::string mark) : head_(head), mark_(std::move(mark)) {}
+  /// @param foster this process's; null if the head is this process
+  ProcessFamily(pid_t head, std::string mark, const FosterParent* foster)
+      : head_(head), mark_(std::move(mark)), foster_(foster) {}
 
   /// The head and its descendants.
   [[nodiscard]] std::vector<pid_t> members() const;
@@ -46,6 +50,7 @@ class ProcessFamily {
 
   pid_t head_;
   std::string mark_;
+  const FosterParent* foster_;
 };
 
 /// Whether `run_child` has started this process as a child of a process that still runs.

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "core/process/process_family.h"
@@ -22,7 +21,6 @@ namespace raymoval {
 namespace {
 
 constexpr int kFirstSpare = 8;  ///< Above all descriptors that a child is given.
-constexpr std::string_view kOomScore = "800";
 
 /// Both ends of a pipe; neither outlives an exec. They are not valid if the system refuses.
 struct Pipe {
@@ -68,15 +66,16 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 /// All that the child needs between fork and exec, where it may not allocate memory.
 struct Prepared {
-  std::string program, folder;
+  std::string program, folder, oom_score;
   std::vector<std::string> arguments, environment;
   std::vector<char*> argument_pointers, environment_pointers;
   std::vector<std::pair<int, int>> descriptors;
   std::vector<int> spare;
 
-  Prepared(const ChildSetup& setup, const std::string& mark)
+  Prepared(const ChildSetup& setup, const std::string& mark, int oom_score_adj)
       : program(setup.program),
         folder(setup.folder.string()),
+        oom_score(std::to_string(oom_score_adj)),
         arguments(setup.arguments),
         environment(environment_of(setup, mark)),
         argument_pointers(pointers_to(arguments)),
@@ -127,9 +126,9 @@ bool place_descriptors(Prepared& prepared, int output) {
 }
 
 /// All that the child starts inherits it, from the first process on.
-void set_oom_score() {
+void set_oom_score(const std::string& score) {
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-  (void)!::write(file, kOomScore.data(), kOomScore.size());
+  (void)!::write(file, score.data(), score.size());
   ::close(file);
 }
 
@@ -141,7 +140,7 @@ void set_oom_score() {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  set_oom_score();
+  set_oom_score(prepared.oom_score);
   reset_signals();
   const int kept_report = spare_copy(report);
   if (kept_report < 0) give_up(report);
@@ -163,10 +162,10 @@ int reason_of_failure(int report) {
 
 }  // namespace
 
-StartedChild start_child(const ChildSetup& setup) {
+StartedChild start_child(const ChildSetup& setup, int oom_score_adj) {
   StartedChild child;
   child.mark = new_mark();
-  Prepared prepared(setup, child.mark);
+  Prepared prepared(setup, child.mark, oom_score_adj);
   Pipe output, report;
   const pid_t parent = ::getpid();
   const bool ready = output.input.valid() && report.input.valid();

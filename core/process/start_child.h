@@ -18,8 +18,8 @@ struct StartedChild {
   std::string mark;    ///< Of its family, see `ProcessFamily`.
 };
 
-/// Starts a child process as `run_child` says. If memory runs out, the system ends the child or
-/// what it has started before this process.
-StartedChild start_child(const ChildSetup& setup);
+/// Starts a child process as `run_child` says.
+/// @param oom_score_adj of the child and, since it is inherited, of all that it starts
+StartedChild start_child(const ChildSetup& setup, int oom_score_adj);
 
 }  // namespace raymoval

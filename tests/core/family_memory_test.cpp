@@ -90,6 +90,28 @@ TEST_CASE("shared memory that several processes have mapped counts once") {
   ::munmap(memory, 40 * kMib);
 }
 
+TEST_CASE("an open file without a disk counts as memory if it was written meanwhile") {
+  FamilyMemory before(kAnyMib);
+  const double without = before.measure({::getpid()});
+  const Descriptor file = memory_file("unmapped");
+  const std::string piece(kMib, 'x');
+  for (std::size_t i = 0; i < 40; ++i) REQUIRE(write_at(file.get(), piece, i * kMib));
+  // Files are looked at each 100 ms, and their clock ticks each 10.
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  FamilyMemory after(kAnyMib);  // For this one the file was there before.
+  CHECK(after.measure({::getpid()}) == Approx(without).margin(3.0));
+  const Descriptor twice(::dup(file.get()));
+  CHECK(before.measure({::getpid()}) == Approx(without + 40.0).margin(3.0));
+}
+
+TEST_CASE("a child that fills a file without a disk is ended for its memory") {
+  const std::string file = "/dev/shm/raymoval-test-" + std::to_string(::getpid());
+  const ChildEnd end = run_child(limited_mib(
+      "exec 9>" + file + "; rm " + file + "; head -c 40000000 /dev/zero >&9; exec sleep 600", 30));
+  CHECK(end.kind == Kind::kOutOfMemory);
+  CHECK(end.largest_mib > 30.0);
+}
+
 TEST_CASE("a child that fills its folder is ended") {
   const TemporaryFolder folder;
   ChildSetup setup = limited("mkdir a; head -c 30000000 /dev/urandom >a/b; exec sleep 600", 60);

@@ -18,6 +18,14 @@ using Kind = ChildEnd::Kind;
 
 namespace {
 
+/// Starts a daemon that has another parent, session and environment than the script, and goes on
+/// when it is there.
+std::string daemon_in(const TemporaryFolder& folder) {
+  const std::string ready = "'" + folder.text() + "/ready'";
+  return "(env -i setsid sh -c '" + nap() + " & echo > \"$0\"; wait' " + ready +
+         " >/dev/null 2>&1 &); while [ ! -e " + ready + " ]; do sleep 0.01; done; ";
+}
+
 std::string until_there(const TemporaryFolder& folder, const std::string& name) {
   return "while [ ! -e '" + folder.text() + "/" + name + "' ]; do sleep 0.01; done; ";
 }
@@ -30,23 +38,63 @@ pid_t own_child(const std::string& script) {
 
 }  // namespace
 
+TEST_CASE("a daemon without the family's environment ends with the child, however that ends") {
+  const WakeAll after;
+  for (const auto& [last, kind, code] : {std::tuple("exit 4", Kind::kExited, 4),
+                                         std::tuple("kill -KILL $$", Kind::kSignalled, SIGKILL),
+                                         std::tuple("sleep 600", Kind::kTimeout, 0)}) {
+    const TemporaryFolder folder;
+    const ChildEnd end =
+        run_child(limited(daemon_in(folder) + last, kind == Kind::kTimeout ? 1 : 60));
+    CHECK(end.kind == kind);
+    CHECK(end.code == code);
+    CHECK(napping().empty());
+  }
+}
+
+TEST_CASE("daemons that a daemon goes on starting end, too") {
+  const WakeAll after;
+  const TemporaryFolder folder;
+  // Each link starts the next one, in a session of its own and without environment, and ends.
+  const std::string link =
+      folder.write("link.sh", nap() + " & env -i setsid sh \"$0\" & sleep 0.001\n").string();
+  CHECK(run_child(limited("env -i setsid sh '" + link + "' & sleep 0.1; exit 0", 60)).code == 0);
+  CHECK(napping().empty());
+}
+
 TEST_CASE("children that are not of the family are neither ended nor waited for") {
   const WakeAll after;
+  const TemporaryFolder folder;
   const pid_t sleeper = own_child("exec " + nap());
   const pid_t ended = own_child("exit 7");
   REQUIRE(napping_become(1));
-  CHECK(run_child(shell("exit 3")).code == 3);
-  CHECK(napping().size() == 1);
+  // While the family runs, this process is the foster parent of what its other children leave, too.
+  ChildEnd end;
+  std::thread family([&] {
+    end = run_child(limited(": > '" + folder.text() + "/begun'; " + until_there(folder, "go"), 60));
+  });
+  while (!std::filesystem::exists(folder / "begun")) std::this_thread::yield();
+  const pid_t leaver = own_child("setsid " + nap() + " & exit 8");
   int status = 0;
+  CHECK(::waitpid(leaver, &status, 0) == leaver);
+  CHECK(WEXITSTATUS(status) == 8);
+  REQUIRE(napping_become(2));
+  folder.write("go", "");
+  family.join();
+  CHECK(end.kind == Kind::kExited);
+  CHECK(napping().size() == 2);
   CHECK(::waitpid(ended, &status, 0) == ended);
   CHECK(WEXITSTATUS(status) == 7);
-  ::kill(sleeper, SIGKILL);
-  CHECK(::waitpid(sleeper, &status, 0) == sleeper);
+  for (const pid_t left : napping()) {
+    ::kill(left, SIGKILL);
+    CHECK(::waitpid(left, &status, 0) == left);  // The leaver's has become a child of this process.
+  }
+  (void)sleeper;
 }
 
 TEST_CASE("families that run at once leave each other alone") {
   const WakeAll after;
-  const TemporaryFolder folder;
+  const TemporaryFolder folder, left;
   ChildEnd end;
   std::thread first([&] {
     end = run_child(limited(
@@ -57,6 +105,8 @@ TEST_CASE("families that run at once leave each other alone") {
   CHECK(napping_become(1));
   for (int i = 0; i < 5; ++i) CHECK(run_child(shell("exit 5")).code == 5);
   CHECK(napping().size() == 1);
+  // What cannot be told apart meanwhile ends with the last family.
+  CHECK(run_child(limited(daemon_in(left) + "exit 6", 60)).code == 6);
   folder.write("go", "");
   first.join();
   CHECK(end.code == 3);
