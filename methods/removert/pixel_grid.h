@@ -29,6 +29,7 @@ class PixelGrid {
   [[nodiscard]] int size() const { return rows_ * columns_; }
   [[nodiscard]] bool clamps() const { return clamp_; }
   [[nodiscard]] bool full_circle() const { return full_circle_; }
+  [[nodiscard]] bool wraps() const { return wrap_; }
 
   /// Fractional row of an elevation in radians: R (1 - (el + V/2) / V).
   [[nodiscard]] double raw_row(double elevation) const {

@@ -51,7 +51,8 @@ std::pair<int, int> columns_around(const PixelGrid& grid, float azimuth, float h
   const float scale = static_cast<float>(grid.column_scale());
   const int left = rounded(middle + (azimuth - half_width) * scale - kPixelSlack);
   const int right = rounded(middle + (azimuth + half_width) * scale + kPixelSlack);
-  if (grid.full_circle()) return {left, right};
+  // Without wrapping, the half column before the seam is rounded into the last column.
+  if (grid.full_circle()) return {left == 0 && !grid.wraps() ? -1 : left, right};
   // Beyond the seam points come in from the other side of the image.
   if (std::abs(azimuth) + half_width >= kPi - 0.01F) return all;
   return {std::clamp(left, 0, grid.columns() - 1), std::clamp(right, 0, grid.columns() - 1)};
