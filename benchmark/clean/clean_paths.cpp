@@ -15,8 +15,8 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "datasets/clouds/file_source.h"
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/file_source.h"
 
 namespace raymoval {
 namespace {
