@@ -13,7 +13,8 @@ MethodEntry raymoval_plus_entry() {
   entry.confidence = {
       "What was decided on a point, the evidence of its voxel, and the dynamic share of its "
       "object.",
-      // scripts/calibrate.cpp over ten simulated worlds, odd seeds, five sensors; EXPERIMENTS.md.
+      // scripts/calibrate.cpp over ten simulated worlds, odd seeds, five sensors (EXPERIMENTS.md,
+      // "Confidence").
       {{0.0000F, 0.0040F},
        {0.0247F, 0.0182F},
        {0.0680F, 0.0331F},
@@ -29,7 +30,7 @@ MethodEntry raymoval_plus_entry() {
        {0.9694F, 0.9940F},
        {0.9844F, 0.9989F}}};
   // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
-  // voxels around have to be dynamic. EXPERIMENTS.md.
+  // voxels around have to be dynamic.
   const Configuration at_once = {
       {"at_once", true}, {"history_scans", 40}, {"history_step", 1}, {"vote_share", 0.4}};
   Configuration a_second_later = at_once;

@@ -43,7 +43,7 @@ struct HeardScans {
 };
 
 /// Scans before the first and after the last that agrees are left out only where so many times as
-/// many agree as tell the heights of a voxel's points. EXPERIMENTS.md says what others do.
+/// many agree as tell the heights of a voxel's points.
 constexpr int kColumnTimes = 3;
 
 /// A beam sees through a roof that is seen from below if it passes at most so many metres below or

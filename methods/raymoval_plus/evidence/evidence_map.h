@@ -166,7 +166,7 @@ class EvidenceMap {
   /// that is asked about, so that few voxels beyond it are asked, and enough for one task of a
   /// thread.
   static constexpr int kTileShift = 6;
-  /// Metres. EXPERIMENTS.md says what others do.
+  /// Metres.
   static constexpr double kColumnGap = 0.8, kRoofAlone = 1.6;
   std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.

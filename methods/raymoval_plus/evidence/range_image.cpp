@@ -14,7 +14,6 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 
 // Numbers of this step. The parameters azimuth_bin and elevation_bin replace the first two, and
-// EXPERIMENTS.md has other heights of bins.
 /// A bin is a little wider than a beam, so that few bins stay empty where a surface goes on.
 constexpr double kBeamsPerColumn = 1.45;
 /// A bin is half as high as beams are apart, so that two beams that are not quite evenly spaced do

@@ -221,7 +221,7 @@ Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters
 }
 
 /// What beams only passed beside outlasts the dynamic voxels around it if so many times as many
-/// scans agree with it. EXPERIMENTS.md says what others do.
+/// scans agree with it.
 constexpr double kOutlastBeside = 3.0;
 
 /// Whether beams only passed beside what is in a voxel: hardly any scan saw through it, and from

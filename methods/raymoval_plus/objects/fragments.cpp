@@ -5,7 +5,7 @@ namespace raymoval::raymoval_plus_method {
 namespace {
 
 /// A fragment may be farther from an object, by this factor, than points of one cluster from each
-/// other. EXPERIMENTS.md says what others do.
+/// other.
 constexpr double kReach = 2.5;
 
 }  // namespace

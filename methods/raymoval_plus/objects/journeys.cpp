@@ -14,7 +14,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step. EXPERIMENTS.md has them at half and at double their values.
+// Numbers of this step.
 /// An object moved if its centre did by so many metres, and by this share of its length: the centre
 /// of a standing thing shifts by less when other sides of it come into sight.
 constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;

@@ -9,7 +9,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step; EXPERIMENTS.md says what others do.
+// Numbers of this step.
 /// Of the scans between the first and the last one that agree with what lasts, at least so many
 /// times `settled_scans` agree when what is dynamic is not there, ...
 constexpr double kSettledAround = 2.0;

@@ -12,7 +12,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of step 8; EXPERIMENTS.md says what others do.
+// Numbers of step 8.
 /// What is higher than so many metres does not stand on the points near the ground: legs and wheels
 /// end below, tree tops and awnings do not. Far away the next beam above a wheel meets its car
 /// higher up: so many metres more for each metre of range.

@@ -5,7 +5,7 @@ namespace raymoval::raymoval_plus_method {
 namespace {
 
 /// The least share of the directions into its box, seen from the side, from which an object has
-/// points. EXPERIMENTS.md says what others do.
+/// points.
 constexpr double kLeastDense = 0.03;
 
 }  // namespace

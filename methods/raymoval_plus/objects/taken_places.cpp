@@ -6,7 +6,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-/// A place is filled if along each axis this share of it is. EXPERIMENTS.md says what others do.
+/// A place is filled if along each axis this share of it is.
 constexpr double kMostOfIt = 0.5;
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step. EXPERIMENTS.md has most of them at half and at double their values.
+// Numbers of this step.
 /// An object of a track of at least so many stands if it moves by less than so many metres a scan,
 /// by which the centre of a standing thing shifts.
 constexpr std::size_t kLeastStanding = 3;

@@ -10,7 +10,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step; EXPERIMENTS.md says what others do.
+// Numbers of this step.
 /// Of the points of a thing that many scans agree with, at most this share is lower than the mean
 /// of its dynamic ones, ...
 constexpr double kMostLower = 0.1;

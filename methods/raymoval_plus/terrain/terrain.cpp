@@ -13,8 +13,7 @@
 namespace raymoval::raymoval_plus_method {
 namespace {
 
-// Numbers of this step. EXPERIMENTS.md has kStep and kPitNeighbours at half and at double their
-// values.
+// Numbers of this step.
 /// Heights are counted in steps of so many metres, which is less than `ground_height`.
 constexpr double kStep = 0.05;
 /// A column with fewer points has no ground of its own: they may be false echoes.

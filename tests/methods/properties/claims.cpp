@@ -95,8 +95,7 @@ constexpr Line kLines[] = {
 
     // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
     // but a cluster has a least number of points. The last scan is judged before it is taken in,
-    // and free space is looked at again when an empty one comes. The boxes of public-code compare
-    // heights with x, which the moved worlds do not show.
+    // and free space is looked at again when an empty one comes.
     {"dynablox:published", "= ? ? = ? ~ = ? ?"},
     {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
     {"dynablox:offline", "? ? ? = = ~ ? ? ?"},
