@@ -33,8 +33,7 @@ using Pairs = std::vector<PairDistance>;
 std::vector<double> path_lengths(const std::vector<Pose>& poses) {
   std::vector<double> lengths(poses.size(), 0.0);
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    lengths[i] =
-        lengths[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm();
+    lengths[i] = lengths[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm();
   }
   return lengths;
 }
@@ -114,9 +113,7 @@ class SurfaceClouds {
       clouds_.at(missing[i]) = std::make_shared<SurfaceCloud>(scans_.load(missing[i]));
     });
   }
-  [[nodiscard]] const SurfaceCloud& operator[](std::size_t scan) const {
-    return *clouds_.at(scan);
-  }
+  [[nodiscard]] const SurfaceCloud& operator[](std::size_t scan) const { return *clouds_.at(scan); }
 
  private:
   const ScanSource& scans_;

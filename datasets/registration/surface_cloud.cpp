@@ -24,7 +24,7 @@ constexpr float kNearest = 0.5F, kFarthest = 60.0F;  // metres
 constexpr float kNearestShare = 0.25F;               // of the median range
 constexpr std::size_t kFewest = 8;                   // points of a plane
 constexpr double kThickness = 0.06;                  // metres, standard deviation across a plane
-constexpr double kFlatness = 5.0;  // Least ratio of the short side of a plane to its thickness.
+constexpr double kFlatness = 5.0;    // Least ratio of the short side of a plane to its thickness.
 constexpr double kShortSide = 0.05;  // metres, standard deviation along the short side
 constexpr double kMetre = 0.001;     // metres in a millimetre
 
@@ -168,7 +168,9 @@ SurfaceCloud::SurfaceCloud(const Scan& scan) {
 SurfaceCloud::~SurfaceCloud() = default;
 SurfaceCloud::SurfaceCloud(SurfaceCloud&&) noexcept = default;
 
-const std::vector<SurfacePoint>& SurfaceCloud::points() const { return tree_->points; }
+const std::vector<SurfacePoint>& SurfaceCloud::points() const {
+  return tree_->points;
+}
 
 const SurfacePoint* SurfaceCloud::nearest(const Vector3f& position, float reach) const {
   std::uint32_t number = 0;
