@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include "core/scan/scan_source.h"
+
+namespace raymoval {
+
+/// How far the surfaces of two overlapping scans lie apart under the given poses.
+struct PairDistance {
+  std::size_t from = 0, to = 0;  ///< Positions of the scans, `from` < `to`.
+  double distance_m = 0.0;       ///< RMS along the normals, without the sensor's noise.
+};
+
+/// How well poses fit the scans.
+struct PoseFit {
+  double distance_m = 0.0;          ///< Median over the pairs; 0 if there are none.
+  double noise_m = 0.0;             ///< Median of what registration leaves: the sensor's noise.
+  std::vector<PairDistance> pairs;  ///< Those with enough overlap, by `from`, then `to`.
+};
+
+/// Measures how well the poses of `scans` fit: pairs of overlapping scans are registered, and the
+/// way by which that moves surfaces is the distance. Pairs cover the whole sequence: scans in
+/// succession, stations along the path, every fourth of these, and returns to a place. So a jump
+/// anywhere lies between two scans of a pair.
+/// @param threads at most so many are used; the answer does not depend on it
+/// @throws DataError if a scan cannot be read; Cancelled
+PoseFit measure_pose_fit(const ScanSource& scans, int threads,
+                         const std::atomic<bool>* cancel = nullptr);
+
+}  // namespace raymoval

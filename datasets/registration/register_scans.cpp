@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "datasets/registration/register_scans.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace raymoval {
+namespace {
+
+using Eigen::Vector3d;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::size_t kMostPoints = 1500;
+constexpr std::size_t kFewestMatches = 50;
+constexpr float kLikeNormal = 0.85F;  // cosine
+constexpr double kOnSurface = 0.1;    // metres
+constexpr double kLeastReach = 0.6;   // metres from a point to its counterpart
+constexpr double kWideReach = 3.0;    // the same for guesses that are far off
+constexpr double kLeastCut = 0.05;    // metres at which Tukey's weight ends
+constexpr double kDetermined = 0.01;  // Least share of the weights that determines a direction.
+constexpr double kBetter = 0.03;      // Gain in overlap that a far-off motion must bring.
+constexpr int kSteps = 15;
+
+/// A point of `to` in the frame of `from`, and the surface that it belongs to.
+struct Match {
+  Vector3d at, normal;
+  double distance;  ///< Signed, metres.
+};
+using Matches = std::vector<Match>;
+
+Matches find_matches(const SurfaceCloud& from, const std::vector<SurfacePoint>& points,
+                     const Pose& motion, double reach) {
+  Matches matches;
+  const Eigen::Isometry3f T = motion.cast<float>();
+  for (const SurfacePoint& point : points) {
+    const Eigen::Vector3f at = T * point.position;
+    const SurfacePoint* other = from.nearest(at, static_cast<float>(reach));
+    if (other == nullptr || other->normal.dot(T.linear() * point.normal) < kLikeNormal) continue;
+    const float distance = other->normal.dot(at - other->position);
+    matches.push_back({at.cast<double>(), other->normal.cast<double>(), distance});
+  }
+  return matches;
+}
+
+/// Standard deviation of the distances by their median, for a normal distribution.
+double robust_deviation(const Matches& matches) {
+  if (matches.empty()) return 0.0;
+  std::vector<double> sizes;
+  for (const Match& match : matches) sizes.push_back(std::abs(match.distance));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * *middle;
+}
+
+double overlap_of(const Matches& matches, std::size_t points) {
+  double sum = 0.0;
+  for (const Match& match : matches) {
+    sum += std::max(0.0, 1.0 - std::abs(match.distance) / kOnSurface);
+  }
+  return points == 0 ? 0.0 : sum / static_cast<double>(points);
+}
+
+/// One Gauss-Newton step about the centre of the matches; turns are measured by the way of points.
+Pose step_of(const Matches& matches, double cut) {
+  Vector3d centre = Vector3d::Zero();
+  for (const Match& match : matches) centre += match.at;
+  centre /= static_cast<double>(matches.size());
+  double square = 0.0;
+  for (const Match& match : matches) square += (match.at - centre).squaredNorm();
+  const double lever = std::sqrt(square / static_cast<double>(matches.size()));
+
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double total = 0.0;
+  for (const Match& match : matches) {
+    const double u = match.distance / cut;
+    if (std::abs(u) >= 1.0) continue;
+    const double weight = (1.0 - u * u) * (1.0 - u * u);
+    Vector6d jacobian;
+    jacobian << (match.at - centre).cross(match.normal) / lever, match.normal;
+    hessian += weight * jacobian * jacobian.transpose();
+    gradient += weight * match.distance * jacobian;
+    total += weight;
+  }
+  Pose step = Pose::Identity();
+  if (total < static_cast<double>(kFewestMatches) / 2.0) return step;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(hessian / total);
+  Vector6d delta = Vector6d::Zero();
+  for (int k = 0; k < 6; ++k) {
+    if (solver.eigenvalues()[k] < kDetermined) continue;
+    const Vector6d direction = solver.eigenvectors().col(k);
+    delta -= direction.dot(gradient) / total / solver.eigenvalues()[k] * direction;
+  }
+  const Vector3d turn = delta.head<3>() / lever;
+  if (turn.norm() > 1e-12) {
+    step.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  }
+  step.translation() = centre + delta.tail<3>() - step.linear() * centre;
+  return step;
+}
+
+/// Counterparts are looked for within `reach` metres at first, and nearer with each step.
+Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, Pose motion,
+            double reach) {
+  for (int k = 0; k < kSteps; ++k) {
+    const double now = std::max(kLeastReach, reach * std::pow(0.7, k));
+    const Matches matches = find_matches(from, points, motion, now);
+    if (matches.size() < kFewestMatches) break;
+    const double loose = 0.6 * reach * std::pow(0.6, k);
+    const Pose step =
+        step_of(matches, std::max({3.0 * robust_deviation(matches), kLeastCut, loose}));
+    motion = step * motion;
+    const double moved =
+        step.translation().norm() + 10.0 * (step.linear() - Eigen::Matrix3d::Identity()).norm();
+    if (now <= kLeastReach && moved < 0.001) break;
+  }
+  return motion;
+}
+
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all) {
+  if (all.size() <= kMostPoints) return all;
+  std::vector<SurfacePoint> some;
+  for (std::size_t i = 0; i < kMostPoints; ++i) some.push_back(all[i * all.size() / kMostPoints]);
+  return some;
+}
+
+}  // namespace
+
+Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess) {
+  const std::vector<SurfacePoint> points = thinned(to.points());
+  Registration best{.T_from_to = guess};
+  Matches matches = find_matches(from, points, guess, kLeastReach);
+  best.overlap = overlap_of(matches, points.size());
+  double gain = 0.0;
+  for (const double reach : {kLeastReach, kWideReach}) {
+    const Pose motion = refine(from, points, guess, reach);
+    Matches found = find_matches(from, points, motion, kLeastReach);
+    const double overlap = overlap_of(found, points.size());
+    if (overlap > best.overlap + gain) {
+      best.T_from_to = motion;
+      best.overlap = overlap;
+      matches = std::move(found);
+    }
+    gain = kBetter;  // Farther away it is easier to find something else that fits a little.
+  }
+  best.matched = matches.size();
+  best.noise = robust_deviation(matches);
+  const Pose back = guess * best.T_from_to.inverse();
+  double square = 0.0;
+  for (const Match& match : matches) {
+    square += std::pow(match.normal.dot(back * match.at - match.at), 2);
+  }
+  if (!matches.empty()) best.shift = std::sqrt(square / static_cast<double>(matches.size()));
+  return best;
+}
+
+}  // namespace raymoval

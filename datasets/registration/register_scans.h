@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scan/scan.h"
+#include "datasets/registration/surface_cloud.h"
+
+namespace raymoval {
+
+/// How well two scans fit under a motion, before and after registration. Metres.
+struct Registration {
+  Pose T_from_to = Pose::Identity();  ///< Registered.
+  std::size_t matched = 0;            ///< Surface points with a counterpart, after registration.
+  double overlap = 0.0;  ///< Share of the surface points of `to` on a surface of `from`, 0 to 1.
+  double noise = 0.0;    ///< Robust standard deviation of distances that registration leaves.
+  double shift = 0.0;    ///< RMS along the normals by which registration moved the surfaces.
+};
+
+/// Registers `to` to `from` from a guess of T_from_to that is right to about 3 m and 10 degrees:
+/// point to plane (Chen and Medioni 1992), Gauss-Newton with Tukey's weights, counterparts of like
+/// normals only. Motions that the surfaces do not determine, such as that along a tunnel, stay as
+/// guessed. At most 1,500 points of `to` are used.
+Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess);
+
+}  // namespace raymoval

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/scan/scan.h"
+
+namespace raymoval {
+
+/// A point on a flat piece of surface, in the sensor frame.
+struct SurfacePoint {
+  Eigen::Vector3f position;  ///< Metres; on the plane.
+  Eigen::Vector3f normal;    ///< Unit length, towards the sensor.
+};
+
+/// The flat surfaces of a scan as points, at most one per cubic cell of 0.256 m.
+///
+/// Planes are fitted in cells of 4.1 m. A cell whose points do not lie on one plane is divided into
+/// eight, down to 0.5 m. Sums are exact (whole millimetres), so the result does not depend on the
+/// order of points. Points nearer than a quarter of the scan's median range are left out, because
+/// those of the vehicle move along with the sensor; so are points beyond 60 m.
+class SurfaceCloud {
+ public:
+  explicit SurfaceCloud(const Scan& scan);
+  ~SurfaceCloud();
+  SurfaceCloud(SurfaceCloud&&) noexcept;
+
+  [[nodiscard]] const std::vector<SurfacePoint>& points() const;
+  /// The point nearest to `position` (sensor frame), or null if none is within `reach` metres.
+  [[nodiscard]] const SurfacePoint* nearest(const Eigen::Vector3f& position, float reach) const;
+  /// Median range of all points of the scan, metres; 0 for a scan without points.
+  [[nodiscard]] double median_range() const { return median_range_; }
+
+ private:
+  struct Tree;
+  double median_range_ = 0.0;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace raymoval
