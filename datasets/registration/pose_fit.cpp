@@ -13,7 +13,7 @@
 #include "core/parallel.h"
 #include "datasets/registration/register_scans.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 namespace {
 
 /// Metres between stations: this share of the median range, within bounds.
@@ -23,7 +23,7 @@ constexpr std::size_t kMostScans = 20;        // between stations
 constexpr std::size_t kFarStations = 4;       // A slow drift adds up over so many stations.
 /// A return is within so many strides of a station, after a path of at least so many strides.
 constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
-constexpr std::size_t kFewestMatches = 150;
+constexpr std::size_t kLeastMatched = 150;
 constexpr double kLeastOverlap = 0.25;
 constexpr std::size_t kBatch = 32;  // Pairs whose scans are in memory together.
 
@@ -151,7 +151,7 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
       found[i] = register_scans(clouds[from], clouds[to], poses[from].inverse() * poses[to]);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      if (found[i].matched < kFewestMatches || found[i].overlap < kLeastOverlap) continue;
+      if (found[i].matched < kLeastMatched || found[i].overlap < kLeastOverlap) continue;
       distances.push_back(found[i].shift);
       noises.push_back(found[i].noise);
       fit.pairs.push_back({pairs[begin + i].from, pairs[begin + i].to, found[i].shift});
@@ -165,4 +165,4 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
   return fit;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

@@ -7,7 +7,7 @@
 
 #include "core/scan/scan_source.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 
 /// How far the surfaces of two overlapping scans lie apart under the given poses.
 struct PairDistance {
@@ -31,4 +31,4 @@ struct PoseFit {
 PoseFit measure_pose_fit(const ScanSource& scans, int threads,
                          const std::atomic<bool>* cancel = nullptr);
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

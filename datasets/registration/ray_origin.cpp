@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nanoflann.hpp>
 
 #include "core/angle.h"
+#include "datasets/registration/point_table.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr float kNearest = 2.0F, kFarthest = 30.0F;                    // metres
+constexpr float kNearestLine = 2.0F, kFarthestLine = 30.0F;            // metres
 constexpr std::size_t kMostLines = 2000;                               // per scan
 constexpr float kNearestNeighbour = 0.01F, kFarthestNeighbour = 1.5F;  // metres
 constexpr double kStraight = 0.98;  // cosine of the bend of a scan line between three points
@@ -27,22 +27,8 @@ struct Line {
   Vector3d at, direction;
 };
 
-struct Table {
-  const std::vector<Eigen::Vector3f>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Table>,
-                                                   Table, 3, std::uint32_t>;
-
 /// The scan line through `point`: its two nearest neighbours, if they lie on opposite sides.
-bool fit_line(const KdTree& tree, const std::vector<Eigen::Vector3f>& points,
+bool fit_line(const PointKdTree<Eigen::Vector3f>& tree, const std::vector<Eigen::Vector3f>& points,
               const Eigen::Vector3f& point, Line& line) {
   std::uint32_t numbers[3];
   float squares[3];
@@ -61,10 +47,10 @@ void add_lines(const Scan& scan, std::vector<Line>& lines) {
   std::vector<std::size_t> in_reach;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const float range = scan.points[i].norm();
-    if (range >= kNearest && range <= kFarthest) in_reach.push_back(i);
+    if (range >= kNearestLine && range <= kFarthestLine) in_reach.push_back(i);
   }
-  const Table table{scan.points};
-  KdTree tree(3, table, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const PointTable<Eigen::Vector3f> table{scan.points};
+  PointKdTree<Eigen::Vector3f> tree(3, table, nanoflann::KDTreeSingleIndexAdaptorParams(16));
   tree.buildIndex();
   const std::size_t count = std::min(kMostLines, in_reach.size());
   Line line;
@@ -127,4 +113,4 @@ RayOrigin find_ray_origin(const std::vector<Scan>& scans) {
   return found;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

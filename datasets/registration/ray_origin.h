@@ -7,7 +7,7 @@
 
 #include "core/scan/scan.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 
 /// Where the rays of a spinning LiDAR start, as its scan lines show it.
 struct RayOrigin {
@@ -25,4 +25,4 @@ struct RayOrigin {
 /// @param scans points in one frame that is fixed to the sensor, z along its axis
 RayOrigin find_ray_origin(const std::vector<Scan>& scans);
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace raymoval {
+namespace raymoval::registration {
 namespace {
 
 using Eigen::Vector3d;
@@ -157,4 +157,4 @@ Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, co
   return best;
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

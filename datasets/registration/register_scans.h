@@ -4,7 +4,7 @@
 #include "core/scan/scan.h"
 #include "datasets/registration/surface_cloud.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 
 /// How well two scans fit under a motion, before and after registration. Metres.
 struct Registration {
@@ -21,4 +21,4 @@ struct Registration {
 /// guessed. At most 1,500 points of `to` are used.
 Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess);
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

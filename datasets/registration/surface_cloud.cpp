@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nanoflann.hpp>
 #include <span>
 
 #include "core/morton.h"
+#include "datasets/registration/point_table.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 namespace {
 
 using Eigen::Vector3d;
@@ -125,21 +125,6 @@ float median_range_of(const Scan& scan) {
   return *middle;
 }
 
-/// Surface points in the form that nanoflann reads.
-struct Table {
-  const std::vector<SurfacePoint>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i].position[static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Table>,
-                                                   Table, 3, std::uint32_t>;
-
 }  // namespace
 
 struct SurfaceCloud::Tree {
@@ -150,8 +135,8 @@ struct SurfaceCloud::Tree {
     index.buildIndex();
   }
   std::vector<SurfacePoint> points;
-  Table table;
-  KdTree index;
+  PointTable<SurfacePoint> table;
+  PointKdTree<SurfacePoint> index;
 };
 
 SurfaceCloud::SurfaceCloud(const Scan& scan) {
@@ -182,4 +167,4 @@ const SurfacePoint* SurfaceCloud::nearest(const Vector3f& position, float reach)
   return found.size() == 0 ? nullptr : &tree_->points[number];
 }
 
-}  // namespace raymoval
+}  // namespace raymoval::registration

@@ -7,13 +7,17 @@
 
 #include "core/scan/scan.h"
 
-namespace raymoval {
+namespace raymoval::registration {
 
 /// A point on a flat piece of surface, in the sensor frame.
 struct SurfacePoint {
   Eigen::Vector3f position;  ///< Metres; on the plane.
   Eigen::Vector3f normal;    ///< Unit length, towards the sensor.
 };
+
+inline const Eigen::Vector3f& position_of(const SurfacePoint& point) {
+  return point.position;
+}
 
 /// The flat surfaces of a scan as points, at most one per cubic cell of 0.256 m.
 ///
@@ -39,4 +43,4 @@ class SurfaceCloud {
   std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace raymoval
+}  // namespace raymoval::registration
