@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 namespace raymoval {
@@ -65,7 +64,7 @@ void MaskStore::set(std::size_t scan, const Mask& mask) {
 Mask MaskStore::get(std::size_t scan) const {
   const std::string bytes = spool_.get(scan);
   std::vector<std::uint64_t> packed(bytes.size() / kWordBytes);
-  std::memcpy(packed.data(), bytes.data(), packed.size() * kWordBytes);
+  std::copy_n(bytes.data(), packed.size() * kWordBytes, reinterpret_cast<char*>(packed.data()));
   Mask mask(counts_[scan].points);
   const std::size_t words = words_for(mask.size());
   std::size_t next = 2 * words_for(words);
