@@ -13,11 +13,11 @@
 rooms="core datasets|methods|eval benchmark python"
 folders="
 core                   . files process scan simd
-datasets               records clouds|fields|geometry trajectories bags ego|world_axes|deskew
+datasets               records clouds|fields|geometry|registration trajectories bags ego|world_axes|deskew
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans helimos
 datasets               simulation layouts open_sequence inspection
-datasets/bags          bag|bag_file|private_folder bag_index|unpack|messages ros1|mcap|ros2 open_bag
+datasets/bags          bag|bag_file bag_index|unpack|messages ros1|mcap|ros2 open_bag
 datasets/clouds        format las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
