@@ -80,11 +80,7 @@ ScanKeys keys_of_files(const std::vector<NumberedFile>& chosen,
   keys.extent = counted_text(all.size(), "scan") + ", " + all.front().path.filename().string() +
                 " to " + all.back().path.filename().string();
   for (const NumberedFile& file : chosen) {
-    const auto row = static_cast<std::size_t>(file.number);
-    keys.rows.push_back(row);
-    if (!times.stamps.empty()) keys.stamps.push_back(times.stamps[row]);
-    keys.times_s.push_back(times.stamps.empty() ? static_cast<double>(file.number) * period_s
-                                                : times.since_first[row]);
+    keys.add(static_cast<std::size_t>(file.number), times, period_s);
   }
   return keys;
 }

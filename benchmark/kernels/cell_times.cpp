@@ -13,6 +13,7 @@
 #include "benchmark/run/cell_run.h"
 #include "benchmark/run/scored_sequence.h"
 #include "core/error.h"
+#include "core/sampling.h"
 #include "datasets/open_sequence.h"
 
 namespace raymoval::kernels_bench {
@@ -27,11 +28,6 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// Seconds of a part of a cell, and of the yardstick beside it, in each round.
 struct Times {
   std::vector<double> seconds, relative;
@@ -42,7 +38,7 @@ struct Times {
   }
   [[nodiscard]] SpeedFigure figure() const {
     const auto [least, most] = std::minmax_element(relative.begin(), relative.end());
-    return {1e3 * median_of(seconds), median_of(relative), *least, *most};
+    return {1e3 * median(seconds), median(relative), *least, *most};
   }
 };
 

@@ -13,34 +13,25 @@
 namespace raymoval {
 namespace {
 
-using MillimetrePoint = Eigen::Vector3i;
+using PlacedPoints = std::span<const PlacedPoint>;
 
-constexpr float kNearest = 1.0F, kFarthest = 30.0F;  // metres
 constexpr int kSmallestBits = 9, kLargestBits = 12;  // Cells of 512 mm to 4,096 mm.
 constexpr std::size_t kFewest = 8;                   // points of a patch
 constexpr double kThickness = 0.05;                  // metres, standard deviation across a surface
 constexpr double kFlatness = 5.0;  // Least ratio of the short side of a patch to its thickness.
 
-/// Points in the order of a space-filling curve: those of a cell of any size stand together.
-struct PlacedPoint {
-  std::uint64_t code = 0;
-  MillimetrePoint at;
-};
-
-std::vector<PlacedPoint> placed_points(const Scan& scan) {
+std::vector<PlacedPoint> placed_points(const Scan& scan, float nearest, float farthest) {
   constexpr int kBias = 1 << 17;  // 131 m: no coordinate is negative.
   std::vector<PlacedPoint> placed;
   placed.reserve(scan.size());
   for (const Eigen::Vector3f& point : scan.points) {
     const float range = point.norm();
-    if (!(range >= kNearest && range <= kFarthest)) continue;
+    if (!(range >= nearest && range <= farthest)) continue;
     PlacedPoint p;
-    std::uint64_t cell[3];
     for (int axis = 0; axis < 3; ++axis) {
       p.at[axis] = static_cast<int>(std::lround(static_cast<double>(point[axis]) * 1000.0));
-      cell[axis] = static_cast<std::uint64_t>(p.at[axis] + kBias) >> kSmallestBits;
+      p.code |= spread_bits(static_cast<std::uint64_t>(p.at[axis] + kBias) >> kPlacedBits) << axis;
     }
-    p.code = spread_bits(cell[0]) | spread_bits(cell[1]) << 1 | spread_bits(cell[2]) << 2;
     placed.push_back(p);
   }
   std::sort(placed.begin(), placed.end(),
@@ -56,7 +47,7 @@ struct Sums {
 };
 
 /// @return whether the points of `sums` lie on a plane
-bool make_patch(const Sums& sums, const MillimetrePoint& corner, SurfacePatch& patch) {
+bool make_patch(const Sums& sums, const Eigen::Vector3i& corner, SurfacePatch& patch) {
   constexpr double kMetre = 0.001;
   const auto count = static_cast<double>(sums.count);
   const Eigen::Vector3d mean = sums.first.cast<double>() / count;
@@ -72,45 +63,32 @@ bool make_patch(const Sums& sums, const MillimetrePoint& corner, SurfacePatch& p
   return true;
 }
 
-/// Patches of the points [begin, end), which share a cell of 2^bits millimetres.
-void add_patches(const std::vector<PlacedPoint>& points, std::size_t begin, std::size_t end,
-                 int bits, std::vector<SurfacePatch>& patches) {
-  if (end - begin < kFewest) return;
-  const MillimetrePoint corner =
-      points[begin].at.unaryExpr([bits](int value) { return (value >> bits) * (1 << bits); });
+/// Visits the patches of `points`, which share a cell of 2^bits millimetres.
+void visit_patches(PlacedPoints points, int bits, const PatchVisit& visit) {
+  if (points.size() < kFewest) return;
+  const Eigen::Vector3i corner =
+      points[0].at.unaryExpr([bits](int value) { return (value >> bits) * (1 << bits); });
   Sums sums;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Eigen::Matrix<std::int64_t, 3, 1> p = (points[i].at - corner).cast<std::int64_t>();
+  for (const PlacedPoint& point : points) {
+    const Eigen::Matrix<std::int64_t, 3, 1> p = (point.at - corner).cast<std::int64_t>();
     ++sums.count;
     sums.first += p;
     sums.second += p * p.transpose();
   }
   SurfacePatch patch;
   if (make_patch(sums, corner, patch)) {
-    patches.push_back(patch);
-    return;
-  }
-  if (bits == kSmallestBits) return;
-  const int shift = 3 * (bits - 1 - kSmallestBits);
-  for (std::size_t first = begin, i = begin + 1; i <= end; ++i) {
-    if (i < end && points[i].code >> shift == points[first].code >> shift) continue;
-    add_patches(points, first, i, bits - 1, patches);
-    first = i;
+    visit(patch, points);
+  } else if (bits > kSmallestBits) {
+    for_each_cell(points, bits - 1,
+                  [&](PlacedPoints cell) { visit_patches(cell, bits - 1, visit); });
   }
 }
 
 }  // namespace
 
-std::vector<SurfacePatch> surface_patches(const Scan& scan) {
-  const std::vector<PlacedPoint> points = placed_points(scan);
-  std::vector<SurfacePatch> patches;
-  constexpr int kShift = 3 * (kLargestBits - kSmallestBits);
-  for (std::size_t first = 0, i = 1; i <= points.size(); ++i) {
-    if (i < points.size() && points[i].code >> kShift == points[first].code >> kShift) continue;
-    add_patches(points, first, i, kLargestBits, patches);
-    first = i;
-  }
-  return patches;
+void for_each_patch(const Scan& scan, float nearest, float farthest, const PatchVisit& visit) {
+  for_each_cell(placed_points(scan, nearest, farthest), kLargestBits,
+                [&](PlacedPoints cell) { visit_patches(cell, kLargestBits, visit); });
 }
 
 }  // namespace raymoval

@@ -2,6 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -15,9 +19,32 @@ struct SurfacePatch {
   double area = 0.0;                                  ///< Square metres, about.
 };
 
-/// Flat pieces among the points between 1 m and 30 m from the sensor: cells of 4.1 m whose points
-/// lie on a plane, and where they do not, cells of half the size, down to 0.5 m. Sums are made of
-/// whole millimetres, so the answer does not depend on the order of points.
-std::vector<SurfacePatch> surface_patches(const Scan& scan);
+/// A point in whole millimetres, with the Morton code of its cell of 256 mm. In the order of codes
+/// the points of a cell of 256 mm times a power of two stand together.
+struct PlacedPoint {
+  std::uint64_t code = 0;
+  Eigen::Vector3i at;
+};
+inline constexpr int kPlacedBits = 8;
+
+/// Calls `visit` with the points of each cell of 2^bits millimetres, bits >= kPlacedBits.
+/// @param points in the order of codes
+template <class Visit>
+void for_each_cell(std::span<const PlacedPoint> points, int bits, Visit&& visit) {
+  const int shift = 3 * (bits - kPlacedBits);
+  for (std::size_t first = 0, i = 1; i <= points.size(); ++i) {
+    if (i < points.size() && points[i].code >> shift == points[first].code >> shift) continue;
+    visit(points.subspan(first, i - first));
+    first = i;
+  }
+}
+
+using PatchVisit = std::function<void(const SurfacePatch&, std::span<const PlacedPoint>)>;
+
+/// Calls `visit` with each flat piece among the points of `scan` from `nearest` to `farthest`
+/// metres (131 at most) from the sensor, and with its points: cells of 4.1 m whose points lie on a
+/// plane, and where they do not, cells of half the size, down to 0.5 m. Sums are made of whole
+/// millimetres, so the answer does not depend on the order of points.
+void for_each_patch(const Scan& scan, float nearest, float farthest, const PatchVisit& visit);
 
 }  // namespace raymoval

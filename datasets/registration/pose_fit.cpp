@@ -11,6 +11,7 @@
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/sampling.h"
 #include "datasets/registration/register_scans.h"
 
 namespace raymoval::registration {
@@ -122,13 +123,6 @@ class SurfaceClouds {
   std::map<std::size_t, std::shared_ptr<const SurfaceCloud>> clouds_;
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic<bool>* cancel) {
@@ -160,8 +154,9 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
   std::sort(fit.pairs.begin(), fit.pairs.end(), [](const PairDistance& a, const PairDistance& b) {
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);
   });
-  fit.distance_m = median(distances);
-  fit.noise_m = median(noises);
+  if (fit.pairs.empty()) return fit;
+  fit.distance_m = median_in_place(distances);
+  fit.noise_m = median_in_place(noises);
   return fit;
 }
 

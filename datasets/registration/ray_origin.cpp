@@ -6,7 +6,8 @@
 #include <cstdint>
 
 #include "core/angle.h"
-#include "datasets/registration/point_table.h"
+#include "core/point_tree.h"
+#include "core/sampling.h"
 
 namespace raymoval::registration {
 namespace {
@@ -28,11 +29,11 @@ struct Line {
 };
 
 /// The scan line through `point`: its two nearest neighbours, if they lie on opposite sides.
-bool fit_line(const PointKdTree<Eigen::Vector3f>& tree, const std::vector<Eigen::Vector3f>& points,
+bool fit_line(const PointTree<Eigen::Vector3f>& tree, const std::vector<Eigen::Vector3f>& points,
               const Eigen::Vector3f& point, Line& line) {
-  std::uint32_t numbers[3];
-  float squares[3];
-  if (tree.knnSearch(point.data(), 3, numbers, squares) < 3) return false;
+  std::vector<std::uint32_t> numbers(3);
+  std::vector<float> squares(3);
+  if (tree.find_nearest(point.data(), numbers, squares) < 3) return false;
   if (squares[1] < kNearestNeighbour * kNearestNeighbour ||
       squares[2] > kFarthestNeighbour * kFarthestNeighbour)
     return false;
@@ -49,14 +50,10 @@ void add_lines(const Scan& scan, std::vector<Line>& lines) {
     const float range = scan.points[i].norm();
     if (range >= kNearestLine && range <= kFarthestLine) in_reach.push_back(i);
   }
-  const PointTable<Eigen::Vector3f> table{scan.points};
-  PointKdTree<Eigen::Vector3f> tree(3, table, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  tree.buildIndex();
-  const std::size_t count = std::min(kMostLines, in_reach.size());
+  const PointTree<Eigen::Vector3f> tree(scan.points);
   Line line;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = in_reach[k * in_reach.size() / count];
-    if (fit_line(tree, scan.points, scan.points[i], line)) lines.push_back(line);
+  for (const std::size_t k : evenly_spread(in_reach.size(), kMostLines)) {
+    if (fit_line(tree, scan.points, scan.points[in_reach[k]], line)) lines.push_back(line);
   }
 }
 

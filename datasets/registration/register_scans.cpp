@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sampling.h"
+
 namespace raymoval::registration {
 namespace {
 
@@ -50,9 +52,7 @@ double robust_deviation(const Matches& matches) {
   if (matches.empty()) return 0.0;
   std::vector<double> sizes;
   for (const Match& match : matches) sizes.push_back(std::abs(match.distance));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle;
+  return 1.4826 * median_in_place(sizes);
 }
 
 double overlap_of(const Matches& matches, std::size_t points) {
@@ -121,9 +121,8 @@ Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, P
 }
 
 std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all) {
-  if (all.size() <= kMostPoints) return all;
   std::vector<SurfacePoint> some;
-  for (std::size_t i = 0; i < kMostPoints; ++i) some.push_back(all[i * all.size() / kMostPoints]);
+  for (const std::size_t i : evenly_spread(all.size(), kMostPoints)) some.push_back(all[i]);
   return some;
 }
 

@@ -13,6 +13,8 @@ namespace raymoval::registration {
 struct SurfacePoint {
   Eigen::Vector3f position;  ///< Metres; on the plane.
   Eigen::Vector3f normal;    ///< Unit length, towards the sensor.
+
+  [[nodiscard]] float operator()(unsigned axis) const { return position[axis]; }
 };
 
 inline const Eigen::Vector3f& position_of(const SurfacePoint& point) {
@@ -21,10 +23,9 @@ inline const Eigen::Vector3f& position_of(const SurfacePoint& point) {
 
 /// The flat surfaces of a scan as points, at most one per cubic cell of 0.256 m.
 ///
-/// Planes are fitted in cells of 4.1 m. A cell whose points do not lie on one plane is divided into
-/// eight, down to 0.5 m. Sums are exact (whole millimetres), so the result does not depend on the
-/// order of points. Points nearer than a quarter of the scan's median range are left out, because
-/// those of the vehicle move along with the sensor; so are points beyond 60 m.
+/// Surfaces are those of `for_each_patch`. Points nearer than a quarter of the scan's median range
+/// are left out, because those of the vehicle move along with the sensor; so are points beyond 60
+/// m.
 class SurfaceCloud {
  public:
   explicit SurfaceCloud(const Scan& scan);

@@ -174,11 +174,7 @@ ScanKeys scan_keys(const std::vector<NumberedFile>& files, const std::vector<Num
   keys.extent =
       counted_text(files.size(), "scan") + " up to frame " + std::to_string(files.back().number);
   for (const NumberedFile& file : chosen) {
-    const auto row = static_cast<std::size_t>(file.number);
-    keys.rows.push_back(row);
-    if (!times.stamps.empty()) keys.stamps.push_back(times.stamps[row]);
-    keys.times_s.push_back(times.stamps.empty() ? static_cast<double>(file.number) * period_s
-                                                : times.since_first[row]);
+    keys.add(static_cast<std::size_t>(file.number), times, period_s);
   }
   return keys;
 }

@@ -119,6 +119,13 @@ std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>&
   return std::make_shared<TrajectoryMotion>(std::move(body));
 }
 
+void ScanKeys::add(std::size_t row, const StampColumn& times, double period_s) {
+  rows.push_back(row);
+  if (!times.stamps.empty()) stamps.push_back(times.stamps[row]);
+  times_s.push_back(times.stamps.empty() ? static_cast<double>(row) * period_s
+                                         : times.since_first[row]);
+}
+
 bool fits_rows(const PoseFile& file, const ScanKeys& scans) {
   return scans.more_rows ? file.rows.size() >= scans.row_count
                          : file.rows.size() == scans.row_count;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/trajectories/pose_file.h"
+#include "datasets/trajectories/stamps.h"
 #include "datasets/trajectories/trajectory.h"
 
 namespace raymoval {
@@ -34,6 +35,10 @@ struct ScanKeys {
   std::vector<Nanoseconds> stamps;
   /// Seconds since the first scan of the data set, of each scan; assumed if nobody knows them.
   std::vector<double> times_s;
+
+  /// Adds the scan whose pose and time are in row `row` of their files.
+  /// @param times of all rows; without any, scans are `period_s` seconds apart
+  void add(std::size_t row, const StampColumn& times, double period_s);
 };
 
 /// The poses of scans. All lists are as long as `ScanKeys::rows`.

@@ -70,6 +70,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kScans = 8;
+constexpr float kNearestPatch = 1.0F, kFarthestPatch = 30.0F;  ///< Metres from the sensor.
 constexpr double kMostArea = 4.0;  ///< Square metres that a patch counts for at most.
 
 // The ground.
@@ -122,10 +123,11 @@ Surfaces collect(const ScanSource& scans) {
   for (const std::size_t index : chosen) {
     const Scan scan = scans.load(index);
     const Matrix3d turn = scan.T_world_sensor.linear();
-    for (const SurfacePatch& patch : surface_patches(scan)) {
-      surfaces.all.push_back(
-          {turn * patch.normal, turn * patch.mean, std::min(patch.area, kMostArea)});
-    }
+    for_each_patch(scan, kNearestPatch, kFarthestPatch,
+                   [&](const SurfacePatch& patch, auto /*points*/) {
+                     surfaces.all.push_back(
+                         {turn * patch.normal, turn * patch.mean, std::min(patch.area, kMostArea)});
+                   });
     surfaces.sensor_z += turn.col(2) / static_cast<double>(chosen.size());
     surfaces.scans += 1.0;
   }

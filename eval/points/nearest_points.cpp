@@ -1,40 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "eval/points/nearest_points.h"
 
-#include <nanoflann.hpp>
 #include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/point_tree.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
-
-/// Points as nanoflann wants to see them.
-template <class Point>
-struct PointView {
-  const std::vector<Point>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t point, std::size_t axis) const {
-    return static_cast<double>(points[point][static_cast<Eigen::Index>(axis)]);
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-};
-
-/// A k-d tree over points, which outlive it.
-template <class Point>
-struct PointTree {
-  using View = PointView<Point>;
-  explicit PointTree(const std::vector<Point>& points) : view{points}, index(3, view) {}
-  View view;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 3,
-                                      std::uint32_t>
-      index;
-};
 
 /// Stops the search at the first point in reach. The search prunes a little beyond it, so that
 /// rounding loses none.
@@ -69,8 +44,8 @@ struct VoteCollector {
 }  // namespace
 
 template <class Point>
-struct NearbyPoints<Point>::Tree : PointTree<Point> {
-  using PointTree<Point>::PointTree;
+struct NearbyPoints<Point>::Tree : PointTree<Point, double> {
+  using PointTree<Point, double>::PointTree;
 };
 
 template <class Point>
@@ -91,7 +66,7 @@ template <class Point>
 bool NearbyPoints<Point>::has_near(const Eigen::Vector3d& query) const {
   if (tree_ == nullptr) return false;
   FirstInReach result{squared_reach_};
-  tree_->index.findNeighbors(result, query.data(), {});
+  tree_->search(query.data(), result);
   return result.found;
 }
 
@@ -101,7 +76,7 @@ template class NearbyPoints<Eigen::Vector3f>;
 struct NearestLabels::Tree {
   explicit Tree(LabelledCloud points) : cloud(std::move(points)), tree(cloud.points) {}
   LabelledCloud cloud;
-  PointTree<Eigen::Vector3d> tree;
+  PointTree<Eigen::Vector3d, double> tree;
 };
 
 NearestLabels::NearestLabels(LabelledCloud cloud)
@@ -116,7 +91,7 @@ std::vector<std::uint32_t> NearestLabels::labels_of(const std::vector<Eigen::Vec
     VoteCollector collector{vote};
     for (std::size_t i = begin; i < end; ++i) {
       vote.clear();
-      tree_->tree.index.findNeighbors(collector, queries[i].data(), {});
+      tree_->tree.search(queries[i].data(), collector);
       labels[i] = tree_->cloud.labels[vote.decide([](std::uint32_t) { return false; }).point];
     }
   });

@@ -13,30 +13,23 @@
 
 namespace raymoval {
 
-/// Which scans of a source a pass goes through, and in which order.
+/// Which scans of a source a pass goes through, first to last.
 struct ScanSelection {
   std::size_t first = 0;
   std::size_t count = 0;
-  std::ptrdiff_t step = 1;  ///< From a scan's number to the next one's; -1 goes backward.
+  std::size_t step = 1;  ///< From a scan's number to the next one's.
 
   [[nodiscard]] std::size_t size() const { return count; }
-  [[nodiscard]] std::size_t operator[](std::size_t i) const {
-    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) +
-                                    static_cast<std::ptrdiff_t>(i) * step);
-  }
+  [[nodiscard]] std::size_t operator[](std::size_t i) const { return first + i * step; }
 };
 
 inline ScanSelection all_scans(const ScanSource& scans) {
   return {0, scans.size(), 1};
 }
 
-inline ScanSelection all_scans_backward(const ScanSource& scans) {
-  return {scans.size() == 0 ? 0 : scans.size() - 1, scans.size(), -1};
-}
-
 /// The scans first, first + step, ... below `end`.
 inline ScanSelection every_nth_scan(std::size_t first, std::size_t end, std::size_t step) {
-  return {first, end > first ? (end - first - 1) / step + 1 : 0, static_cast<std::ptrdiff_t>(step)};
+  return {first, end > first ? (end - first - 1) / step + 1 : 0, step};
 }
 
 /// One pass: calls `visit(Scan)` with each selected scan, one after the other. It shows progress,

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "methods/common/point_tree.h"
+#include "core/point_tree.h"
 #if RAYMOVAL_PCL
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -91,7 +91,8 @@ Mask find_noise(const std::vector<octomap::point3d>& points, const Parameters& p
     std::vector<std::uint32_t> index(neighbours + 1);
     std::vector<float> squared(neighbours + 1);
     for (std::size_t i = begin; i < end; ++i) {
-      tree.find_nearest(points[i], index, squared);
+      const float query[3] = {points[i](0), points[i](1), points[i](2)};
+      tree.find_nearest(query, index, squared);
       double sum = 0.0;  // The first neighbour is the point itself, or one in the same place.
       for (std::size_t k = 1; k <= neighbours; ++k) sum += std::sqrt(squared[k]);
       mean_distance[i] = sum / static_cast<double>(neighbours);
