@@ -21,7 +21,7 @@ packages=(
   libembree-dev libfmt-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
   liblz4-dev libzstd-dev libsqlite3-dev libyaml-cpp-dev libzip-dev libcairo2-dev fonts-dejavu-core esbuild libjs-three
 )
-tests=(clang-format git python3-numpy python3-yaml python3-jsonschema)
+tests=(clang-format git procps python3-numpy python3-yaml python3-jsonschema)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
 extra=(gcovr mypy snakemake dpkg-dev file texlive-latex-base texlive-latex-recommended chromium
   doxygen mkdocs mkdocs-material)
@@ -83,8 +83,13 @@ if [[ $(id -u) -ne 0 ]]; then
   as_root=(sudo)
 fi
 
-# The package lists are fetched only if apt does not know the packages from earlier.
-if ! apt-cache show "${missing[@]}" >/dev/null 2>&1; then
+# The package lists are fetched only if apt does not know the packages from earlier. Each is asked for by
+# itself: apt-cache is content if it knows one of several, and takes g++ for a pattern.
+known_to_apt() { apt-cache show --no-all-versions "${1//+/\\+}" >/dev/null 2>&1; }
+for package in "${missing[@]}"; do
+  known_to_apt "$package" || [[ $optional == *" $package "* ]] || lists=old
+done
+if [[ -n ${lists:-} ]]; then
   echo "install_dependencies.sh: fetching the package lists"
   "${as_root[@]}" apt-get update
 fi
@@ -92,7 +97,7 @@ unknown=()
 left_out=()
 known=()
 for package in "${missing[@]}"; do
-  if apt-cache show "$package" >/dev/null 2>&1; then
+  if known_to_apt "$package"; then
     known+=("$package")
   elif [[ $optional == *" $package "* ]]; then
     left_out+=("$package")

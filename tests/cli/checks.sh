@@ -36,6 +36,14 @@ holds() {
   "${@:2}" >out.txt 2>err.txt || complain "$1"
 }
 
+# left_over: the processes of methods in this test's folder whose program has ended. Other tests have their own.
+left_over() {
+  local process
+  for process in $(pgrep -f "^raymoval run-method" -P 1); do
+    [[ $(readlink "/proc/$process/cwd") != "$work"* ]] || echo "$process"
+  done
+}
+
 # suite_anywhere NAME: prints the path of a copy of a shipped suite that a build without PCL takes, too.
 suite_anywhere() {
   sed 's/"octomap:ground", *//' "$shipped_suites/$1.json" >"$work/$1.json"

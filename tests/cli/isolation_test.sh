@@ -41,7 +41,7 @@ holds "of much output the end is kept" test "$(grep -o 'line [0-9]*' \
 holds "the good method has a score" grep -q "^street,comb,default,erasor,ok,[0-9]" run/results.csv
 holds "its memory is its own" awk -F, '$2 == "comb" { exit !($17 > 0 && $17 < 600) }' run/results.csv
 holds "the table tells what failed" grep -qE "crash:default .*signal 11.*the last words" table.txt
-holds "nothing that was started is left" test -z "$(pgrep -f "^raymoval run-method" -P 1)"
+holds "nothing that was started is left" test -z "$(left_over)"
 holds "no lock is left" test ! -e run/run.lock
 holds "no core file is left" test -z "$(find . -name 'core*')"
 

@@ -22,7 +22,7 @@ holds "cells say how they were timed" grep -q '"side_by_side": 3' three/cells/b/
 holds "so do repeats" grep -q '"side_by_side": 3' three/cells/b/comb-default/timing-2.json
 holds "alone they say nothing" test "$(grep -rl side_by_side one | wc -l)" -eq 0
 holds "tables say it" grep -q "Up to 3 cells ran at once" three/table.md
-holds "nothing that was started is left" test -z "$(pgrep -f "^raymoval run-method" -P 1)"
+holds "nothing that was started is left" test -z "$(left_over)"
 holds "no lock is left" test ! -e three/run.lock
 
 # Two really are at work at once: each waits for the file that the other makes.
@@ -50,7 +50,7 @@ holds "two children at once" test "$(pgrep -P $process | wc -l)" -ge 2
 kill -TERM $process
 wait $process
 holds "it ends with the signal's code" test $? -eq 143
-holds "no child is left" test -z "$(pgrep -f "^raymoval run-method" -P 1)"
+holds "no child is left" test -z "$(left_over)"
 holds "the controls are kept" test -s cut/cells/street/noop-default/cell.json
 expect 0 "All controls are as they must be" run "${slow[@]}" --quiet --jobs 2 --out cut
 holds "it is whole" test "$(grep -c ',ok,' cut/results.csv)" -eq 5

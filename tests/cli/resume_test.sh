@@ -33,7 +33,7 @@ done
 holds "it was killed several times ($kills)" test $kills -ge 3
 [[ $finished == yes ]] || expect 0 "" "${run[@]}" --out killed
 holds "a killed run ends with the files of an undisturbed one" same_but_times whole killed
-holds "no child of a killed run is left" test -z "$(pgrep -f "^raymoval run-method" -P 1)"
+holds "no child of a killed run is left" test -z "$(left_over)"
 before=$(find killed -name '*.json' -path '*cells*' -exec stat -c '%n %y' {} + | sort)
 expect 0 "" "${run[@]}" --out killed
 holds "what is whole is not run again" test "$before" = \
@@ -142,7 +142,7 @@ expect 2 "another run is writing there" "${slow[@]}" --only noop:default
 kill -INT $process
 wait $process
 holds "an interrupted cell exits with 130" test $? -eq 130
-holds "its hanging child is gone" test -z "$(pgrep -f "^raymoval run-method" -P 1)"
+holds "its hanging child is gone" test -z "$(left_over)"
 holds "no lock is left by it" test -z "$(find busy -name run.lock)"
 
 # No room, or no right to write: a clear error, and what was there stays.
