@@ -68,8 +68,7 @@ class ChildWatch {
     family_.end();
     int status = 0;
     while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
-    tail_.drain();
-    end_.output_tail = tail_.text();
+    if (!stopped_) note_output();
     if (memory_.counts_shares_in_full()) {
       end_.memory_note =
           " Memory that its processes share was counted for each of them, because "
@@ -108,9 +107,15 @@ class ChildWatch {
     return is_cancelled();
   }
 
+  void note_output() {
+    tail_.drain();
+    end_.output_tail = tail_.text();
+  }
+
   void stop(ChildEnd::Kind kind) {
     stopped_ = true;
     end_.kind = kind;
+    note_output();  // Not what the child says while its descendants are ended.
     family_.end();
   }
 

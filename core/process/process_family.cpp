@@ -21,13 +21,12 @@ namespace raymoval {
 namespace {
 
 constexpr auto kMostPatience = std::chrono::seconds(2);
+constexpr auto kPatienceWithHead = std::chrono::milliseconds(50);
 
-/// `process` and its descendants; with `stop` each is stopped before its children are looked for.
-void add_with_descendants(pid_t process, bool stop, std::vector<pid_t>& found) {
+void add_with_descendants(pid_t process, std::vector<pid_t>& found) {
   if (std::find(found.begin(), found.end(), process) != found.end()) return;
   found.push_back(process);
-  if (stop && process != ::getpid()) ::kill(process, SIGSTOP);
-  for (const pid_t child : children_of(process)) add_with_descendants(child, stop, found);
+  for (const pid_t child : children_of(process)) add_with_descendants(child, found);
 }
 
 /// The mark of the family whose head this process is, if it is one.
@@ -59,7 +58,7 @@ void wait_for_parent_and_end() {
 
 std::vector<pid_t> ProcessFamily::members() const {
   std::vector<pid_t> members;
-  add_with_descendants(head_, false, members);
+  add_with_descendants(head_, members);
   return members;
 }
 
@@ -76,14 +75,14 @@ bool ProcessFamily::is_member(pid_t process) const {
   return false;
 }
 
-ProcessFamily::Members ProcessFamily::stopped_members() const {
+ProcessFamily::Members ProcessFamily::found_members() const {
   std::vector<pid_t> found;
-  add_with_descendants(head_, true, found);
+  add_with_descendants(head_, found);
   for (const pid_t process : all_processes()) {
-    if (is_member(process)) add_with_descendants(process, true, found);
+    if (is_member(process)) add_with_descendants(process, found);
   }
   if (foster_ != nullptr) {
-    for (const pid_t child : foster_->foster_children()) add_with_descendants(child, true, found);
+    for (const pid_t child : foster_->foster_children()) add_with_descendants(child, found);
   }
   Members members;
   for (const pid_t process : found) {
@@ -96,17 +95,22 @@ ProcessFamily::Members ProcessFamily::stopped_members() const {
 void ProcessFamily::end() const {
   const auto started = std::chrono::steady_clock::now();
   std::set<pid_t> known_ended;
-  do {
-    const Members members = stopped_members();
+  for (bool has_head = true;;) {
+    const Members members = found_members();
+    for (const pid_t process : members.living) ::kill(process, SIGKILL);
     bool quiet = members.living.empty();
     // Who has ended since the last look may have started another one after it was looked for.
     for (const pid_t process : members.ended) quiet &= !known_ended.insert(process).second;
-    if (quiet) break;
-    for (const pid_t process : members.living) ::kill(process, SIGKILL);
+    const auto took = std::chrono::steady_clock::now() - started;
+    if (has_head && (quiet || took > kPatienceWithHead)) {
+      ::kill(-head_, SIGKILL);  // Its process group: at once, whatever it does meanwhile.
+      ::kill(head_, SIGKILL);
+      has_head = false;
+    } else if (quiet || took > kMostPatience) {
+      return;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  } while (std::chrono::steady_clock::now() - started < kMostPatience);
-  ::kill(-head_, SIGKILL);  // The process group of the head: at once, whatever it does meanwhile.
-  ::kill(head_, SIGKILL);
+  }
 }
 
 bool is_family_head() {

@@ -32,20 +32,21 @@ class ProcessFamily {
   /// The head and its descendants.
   [[nodiscard]] std::vector<pid_t> members() const;
 
-  /// Ends all members by SIGKILL. Each is stopped before its children are looked for, and they are
-  /// looked for until there is none left and none has ended meanwhile, so that a chain of members
-  /// that each start the next one and end does not escape.
-  /// When this returns, the members have ended, but for those that the system itself holds up for
-  /// more than two seconds.
+  /// Ends all members by SIGKILL, and looks for more until there is none left and none has ended
+  /// meanwhile, so that a chain of members that each start the next one and end does not escape. The
+  /// head comes last, since what its descendants leave behind is found below it. Nobody is stopped:
+  /// if this process is killed meanwhile, a stopped head could not end its family (see
+  /// `end_family_with_parent`). When this returns, the members have ended, but for those that the
+  /// system itself holds up for more than two seconds.
   void end() const;
 
  private:
   /// Members without the head.
   struct Members {
-    std::vector<pid_t> living;  ///< All of them are stopped.
-    std::vector<pid_t> ended;   ///< Nobody has waited for them yet.
+    std::vector<pid_t> living;
+    std::vector<pid_t> ended;  ///< Nobody has waited for them yet.
   };
-  [[nodiscard]] Members stopped_members() const;
+  [[nodiscard]] Members found_members() const;
   [[nodiscard]] bool is_member(pid_t process) const;
 
   pid_t head_;
