@@ -59,6 +59,12 @@ DataRecord Sequence::record() const {
   data.time_offset_s = time_offset_s;
   if (const DeskewedSource* deskewed = deskewed_source(*this)) data.deskew = deskewed->clock().text;
   if (labels) data.label_rule = label_rule;
+  for (const auto* lines : {&damage, &losses}) {
+    for (const std::string& line : *lines) {
+      const std::size_t place = line.rfind('/', line.find(": "));
+      data.losses.push_back(place == std::string::npos ? line : line.substr(place + 1));
+    }
+  }
   return data;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/scan/label_rule.h"
 #include "core/scan/range_limits.h"
@@ -38,6 +39,8 @@ struct DataRecord {
   /// How motion within scans was taken out: "time in seconds from the time of the scan". Else
   /// empty.
   std::string deskew = {};
+  /// What of the data is missing or could not be read, in whole sentences without folders.
+  std::vector<std::string> losses = {};
   std::string fingerprint = {};  ///< Hash of all that methods and protocols read; empty if unknown.
 };
 

@@ -74,6 +74,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) 
   visitor.optional("T_sensor", data.T_sensor);
   visitor.optional("time_offset_s", data.time_offset_s);
   visitor.optional("deskew", data.deskew);
+  visitor.optional("losses", data.losses);
   visitor.optional("fingerprint", data.fingerprint);
 }
 

@@ -23,7 +23,7 @@ constexpr const char* kPoseOption = "--pose-topic";
 struct TopicPoses {
   std::string frame, child;
   Trajectory trajectory;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, losses;
 };
 
 class TopicPosesReader {
@@ -78,7 +78,7 @@ class TopicPosesReader {
       throw DataError(where + "holds no pose that can be used." +
                       (skipped.empty() ? "" : " " + skipped));
     }
-    if (!skipped.empty()) result_.notes.push_back(where + skipped);
+    if (!skipped.empty()) result_.losses.push_back(where + skipped);
     if (unstamped_ > 0) {
       result_.notes.push_back(where + counted_text(unstamped_, "message") +
                               " without a stamp; the time of recording is taken.");
@@ -98,7 +98,7 @@ class TopicPosesReader {
 /// The steps from the body that has the poses to the sensor.
 std::vector<ChainLink> body_to_sensor(const Bag& bag, const TopicPoses& poses,
                                       const BagPoseQuery& query, BagMotion& result) {
-  const auto fixed = [](const Pose& pose) { return std::vector<ChainLink>{{{}, pose, false}}; };
+  const auto fixed = [](const Pose& pose) { return std::vector<ChainLink>{{{}, pose}}; };
   if (query.T_body_sensor) return fixed(*query.T_body_sensor);
   if (result.point_frame == PointFrame::kWorld || poses.child == query.cloud_frame) return {};
   if (poses.child.empty()) {
@@ -120,7 +120,7 @@ std::vector<ChainLink> body_to_sensor(const Bag& bag, const TopicPoses& poses,
   result.notes.push_back(result.where + ": the poses are of frame '" + poses.child +
                          "'; where the sensor is on it ('" + query.cloud_frame +
                          "') is taken from tf.");
-  for (std::string& note : tree.notes()) result.notes.push_back(std::move(note));
+  for (std::string& loss : tree.losses()) result.losses.push_back(std::move(loss));
   return *links;
 }
 
@@ -130,6 +130,7 @@ BagMotion motion_of_topic(const Bag& bag, std::size_t topic, const BagPoseQuery&
   result.where = bag_name(bag) + ": " + result.name;
   TopicPoses poses = TopicPosesReader(bag, topic).read();
   result.notes = poses.notes;
+  result.losses = poses.losses;
   const bool in_world =
       !query.cloud_frame.empty() && query.cloud_frame == poses.frame && poses.child != poses.frame;
   result.point_frame =
@@ -140,7 +141,7 @@ BagMotion motion_of_topic(const Bag& bag, std::size_t topic, const BagPoseQuery&
                            "not, say --points sensor.");
   }
   std::vector<ChainLink> links = body_to_sensor(bag, poses, query, result);
-  links.insert(links.begin(), {std::move(poses.trajectory), Pose::Identity(), false});
+  links.insert(links.begin(), {std::move(poses.trajectory)});
   result.motion = std::make_shared<ChainMotion>(std::move(links), query.time_offset, query.max_gap);
   return result;
 }
@@ -177,7 +178,7 @@ BagMotion motion_of_tf(const Bag& bag, const BagPoseQuery& query) {
   result.point_frame = query.point_frame.value_or(PointFrame::kSensor);
   result.motion = std::make_shared<ChainMotion>(*tree.links(chain.back(), query.cloud_frame),
                                                 query.time_offset, query.max_gap);
-  result.notes = tree.notes();
+  result.losses = tree.losses();
   return result;
 }
 

@@ -30,6 +30,7 @@ struct BagMotion {
   std::string where;  ///< For messages: "drive.bag: /odom".
   PointFrame point_frame = PointFrame::kSensor;
   std::vector<std::string> notes;
+  std::vector<std::string> losses;  ///< Sentences on messages that could not be used.
 };
 
 /// The motion of the sensor by what a bag holds. The topic is the one named, else the only one with

@@ -29,6 +29,11 @@
 namespace raymoval {
 namespace {
 
+template <class Value>
+void take(std::vector<Value>& all, std::vector<Value> more) {
+  for (Value& value : more) all.push_back(std::move(value));
+}
+
 namespace fs = std::filesystem;
 
 /// What the messages of a topic with scans say before their points.
@@ -234,13 +239,9 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   found.poses.stamps = heads.stamps;
   found.poses.motion = motion.motion;
   found.poses.notes = std::move(motion.notes);
-  found.poses.losses = std::move(looked_up.losses);
+  found.poses.losses = std::move(motion.losses);
+  take(found.poses.losses, std::move(looked_up.losses));
   return found;
-}
-
-template <class Value>
-void take(std::vector<Value>& all, std::vector<Value> more) {
-  for (Value& value : more) all.push_back(std::move(value));
 }
 
 Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,

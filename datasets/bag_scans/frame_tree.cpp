@@ -13,8 +13,8 @@ namespace raymoval {
 std::optional<Pose> ChainMotion::at(Nanoseconds stamp) const {
   Pose T_world_sensor = Pose::Identity();
   for (const ChainLink& link : links_) {
-    std::optional<Pose> step = link.fixed;
-    if (!link.moving.empty()) step = link.moving.at(stamp + time_offset_, max_gap_);
+    const std::optional<Pose> step =
+        link.fixed ? link.fixed : link.moving.at(stamp + time_offset_, max_gap_);
     if (!step) return std::nullopt;
     T_world_sensor = T_world_sensor * (link.inverse ? step->inverse() : *step);
   }
@@ -26,7 +26,7 @@ std::pair<Nanoseconds, Nanoseconds> ChainMotion::span() const {
   constexpr Nanoseconds kAnyTime = Nanoseconds{1} << 61;
   std::pair<Nanoseconds, Nanoseconds> span{-kAnyTime, kAnyTime};
   for (const ChainLink& link : links_) {
-    if (link.moving.empty()) continue;
+    if (link.fixed) continue;
     span.first = std::max(span.first, link.moving.poses().front().stamp - time_offset_);
     span.second = std::min(span.second, link.moving.poses().back().stamp - time_offset_);
   }
@@ -45,10 +45,6 @@ Trajectory ordered_trajectory(std::vector<StampedPose> poses) {
 }
 
 namespace {
-
-bool same_pose(const PoseMessage& a, const PoseMessage& b) {
-  return a.position == b.position && a.attitude.coeffs() == b.attitude.coeffs();
-}
 
 bool is_static_topic(const BagTopic& topic) {
   return topic.name.ends_with("tf_static");
@@ -103,8 +99,6 @@ void FrameTree::add(const PoseMessage& pose, bool dynamic) {
   } else if (pose.frame != edge.parent) {
     edge.other_parent = pose.frame;
     return;
-  } else if (dynamic && edge.dynamic && !same_pose(edge.last, pose)) {
-    edge.moves = true;
   }
   edge.dynamic = edge.dynamic || dynamic;
   edge.last = pose;
@@ -171,7 +165,7 @@ void FrameTree::read_links(std::map<std::string, ChainLink>& links) const {
   const std::string where = bag_name(bag_) + ": tf";
   for (auto& [frame, link] : links) {
     const Edge& edge = edges_.at(frame);
-    if (edge.moves) {
+    if (edge.dynamic) {
       moving[frame] = {};
     } else {
       link.fixed = rigid_pose(edge.last, where);
@@ -194,10 +188,17 @@ void FrameTree::read_links(std::map<std::string, ChainLink>& links) const {
       }
     });
   }
-  for (auto& [frame, poses] : moving) links[frame].moving = ordered_trajectory(std::move(poses));
+  for (auto& [frame, poses] : moving) {
+    if (poses.empty()) {
+      throw DataError(where + ": no pose of frame " + frame + " in " + edges_.at(frame).parent +
+                      " can be used. " + skipped_.sentence() +
+                      " Name a topic with poses (--pose-topic), or a file (--poses).");
+    }
+    links[frame].moving = ordered_trajectory(std::move(poses));
+  }
 }
 
-std::vector<std::string> FrameTree::notes() const {
+std::vector<std::string> FrameTree::losses() const {
   const std::string sentence = skipped_.sentence();
   if (sentence.empty()) return {};
   return {bag_name(bag_) + ": tf: " + sentence};

@@ -17,9 +17,9 @@ namespace raymoval {
 
 /// A step from frame to frame: a fixed transform, or one over time.
 struct ChainLink {
-  Trajectory moving;              ///< Empty if the step is fixed.
-  Pose fixed = Pose::Identity();  ///< Where `moving` is empty.
-  bool inverse = false;           ///< Whether the step goes the other way.
+  Trajectory moving;                         ///< Used if the step is not fixed.
+  std::optional<Pose> fixed = std::nullopt;  ///< At all times.
+  bool inverse = false;                      ///< Whether the step goes the other way.
 };
 
 /// The motion of a sensor along a chain of frames, from the world to the sensor. Each step is
@@ -63,7 +63,8 @@ void for_each_pose_message(
 
 /// The frames of a recording as tf and tf_static tell of them: each has a parent, and a pose in it
 /// that is fixed or changes over time. What tf_static says holds at all times, also before it was
-/// said. Only who is whose parent is in memory.
+/// said; what tf says holds where its messages are, even if they all say the same. Only who is whose
+/// parent is in memory.
 class FrameTree {
  public:
   /// Reads all tf topics. @throws UnreadableError
@@ -78,17 +79,17 @@ class FrameTree {
   [[nodiscard]] bool is_dynamic(const std::string& frame) const;
   /// The steps from frame `from` to frame `to`: their product is T_from_to. Reads the transforms
   /// that it takes. Nothing if no chain of frames connects them.
-  /// @throws DataError as `chain`, and if a transform is no rigid motion
+  /// @throws DataError as `chain`, and if a fixed transform, or all of one over time, are no rigid
+  /// motion
   [[nodiscard]] std::optional<std::vector<ChainLink>> links(const std::string& from,
                                                             const std::string& to) const;
-  /// Sentences on messages that could not be read.
-  [[nodiscard]] std::vector<std::string> notes() const;
+  /// Sentences on messages that could not be used.
+  [[nodiscard]] std::vector<std::string> losses() const;
 
  private:
   struct Edge {
     std::string parent, other_parent;  ///< The second is empty, unless there are two.
     bool dynamic = false;              ///< Told by tf.
-    bool moves = false;                ///< It did change.
     PoseMessage last;
   };
   void add(const PoseMessage& pose, bool dynamic);

@@ -99,6 +99,7 @@ class Draw {
     data.T_sensor = text();
     data.time_offset_s = maybe([&] { return number(); });
     data.deskew = text();
+    data.losses = some([&](std::size_t) { return text(); });
     data.fingerprint = text();
     return data;
   }
@@ -237,7 +238,7 @@ bool may_be_missing(const Pointer& place) {
       "intervals",      "median",       "p90",
       "early",          "late",         "peak_memory_mib",
       "repeats",        "T_sensor",     "time_offset_s",
-      "deskew"};
+      "deskew",         "losses"};
   return std::find(kOptional.begin(), kOptional.end(), place.back()) != kOptional.end();
 }
 
@@ -376,7 +377,7 @@ TEST_CASE("Files of earlier versions are read", "[result]") {
 
   ordered_json old = full_cell();
   for (const char* key : {"columns", "masks"}) old.erase(key);
-  for (const char* key : {"up", "up_source", "drop_ego", "T_sensor", "time_offset_s", "deskew"})
+  for (const char* key : {"up", "up_source", "drop_ego", "T_sensor", "time_offset_s", "deskew", "losses"})
     old["data"].erase(key);
   for (const char* key : {"early", "late"}) old["measured"]["seconds_per_scan"].erase(key);
   old["protocols"][0].erase("intervals");

@@ -22,7 +22,7 @@ const char* const kData = R"({
   "up_source": "given", "scan_period_s": 0.25, "range_m": {"min": 1.5, "max": 50.0},
   "drop_ego": {"asked": "auto", "left_out": "none"},
   "label_rule": {"name": "rule", "moving": [252], "ignored": [1]}, "T_sensor": "mount.txt",
-  "time_offset_s": 0.5, "deskew": "t in seconds", "fingerprint": "f"})";
+  "time_offset_s": 0.5, "deskew": "t in seconds", "losses": ["cut"], "fingerprint": "f"})";
 const char* const kMethod = R"({
   "name": "comb", "variant": "default", "version": "3", "online": true, "control": true,
   "parameters": {"size": 0.5}})";

@@ -18,6 +18,7 @@ inline nlohmann::ordered_json full_cell() {
   data.drop_ego = {"auto", "none"};
   data.label_rule = LabelRule{"rule", {252}, {0}};
   data.T_sensor = "0,0,1,0,0,0,1";
+  data.losses = {"poses.txt: 1 of 3 scans has no pose."};
   data.time_offset_s = 0.05;
   data.deskew = "t in seconds from the time of the scan";
   data.fingerprint = "f";

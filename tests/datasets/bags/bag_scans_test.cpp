@@ -264,6 +264,62 @@ TEST_CASE("Without odometry the frames of tf are followed from the root to the s
   CHECK(sequence.motion->span().first == from_seconds(100));
 }
 
+TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
+  const TemporaryFolder folder;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto data_error_of = [](MadeBag& bag) {
+    const std::string path = bag.finish();
+    return message_of<DataError>([&] { (void)open_sequence(path, {}); });
+  };
+  {
+    // A filter that diverged: nothing stands in for its poses.
+    MadeBag bag(folder / "diverged.bag");
+    bag.tf(0, "base", "lidar", shift(0, 0, 2), "/tf_static");
+    bag.tf(100, "odom", "base", shift(nan));
+    add_clouds(bag);
+    bag.tf(101, "odom", "base", shift(nan));
+    check_says(data_error_of(bag), {"diverged.bag: tf", "no pose of frame base in odom",
+                                    "no rigid motion", "--pose-topic", "--poses"});
+  }
+  {
+    // One of four that cannot be used is told as a loss, and stands with the result.
+    MadeBag bag(folder / "once.bag");
+    bag.tf(100, "odom", "lidar", shift(0));
+    bag.tf(100.3, "odom", "lidar", shift(nan));
+    add_clouds(bag);
+    bag.tf(101, "odom", "lidar", shift(10));
+    const Sequence sequence = open_sequence(bag.finish(), {});
+    CHECK(position(sequence, 1).isApprox(Eigen::Vector3d(3, 0, 0), 1e-9));
+    REQUIRE(sequence.losses.size() == 1);
+    check_says(sequence.losses[0],
+               {"once.bag: tf: 1 message could not be used", "no rigid motion"});
+    CHECK(sequence.record().losses == sequence.losses);
+  }
+  {
+    // A single message says nothing of other times, also if the frame never moves.
+    MadeBag bag(folder / "single.bag");
+    bag.tf(99, "map", "odom", shift(0, 10));
+    bag.tf(100, "odom", "lidar", shift(0));
+    add_clouds(bag);
+    bag.tf(101, "odom", "lidar", shift(10));
+    check_says(data_error_of(bag), {"single.bag: tf map -> lidar"});
+  }
+  {
+    // Nor do two that are further apart than the greatest gap.
+    MadeBag bag(folder / "gap.bag");
+    bag.tf(99, "map", "odom", shift(0, 10));
+    bag.tf(105, "map", "odom", shift(0, 10));
+    bag.tf(100, "odom", "lidar", shift(0));
+    add_clouds(bag);
+    bag.tf(101, "odom", "lidar", shift(10));
+    check_says(data_error_of(bag), {"gap.bag: tf map -> lidar"});
+    SequenceOptions options;
+    options.max_gap_s = 6;
+    const Sequence sequence = open_sequence((folder / "gap.bag").string(), options);
+    CHECK(position(sequence, 0).isApprox(Eigen::Vector3d(1, 10, 0), 1e-9));
+  }
+}
+
 TEST_CASE("A bag without poses names what there is, and ways to poses", "[bags]") {
   const TemporaryFolder folder;
   MadeBag bag(folder / "drive.bag");
