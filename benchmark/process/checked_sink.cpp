@@ -50,6 +50,7 @@ void CheckedSink::accept(std::size_t scan, const Mask& mask) {
   if (std::any_of(mask.begin(), mask.end(), [](std::uint8_t value) { return value > 1; })) {
     throw MethodError(of + ": a mask value is neither 0 (kept) nor 1 (removed).");
   }
+  scans_.check_in_time(scan);
   const std::lock_guard lock(mutex_);
   if (masks_.has(scan)) throw_given_twice(of);
   masks_.set(scan, mask);

@@ -71,6 +71,17 @@ Measurement measure(const StageTimes& times, const TimedSource& scans, double se
   return measured;
 }
 
+/// An external program gets files, so that nobody can tell when it reads them.
+std::optional<OnlineRule> online_rule(const MethodTask& task) {
+  const ConfiguredMethod& method = task.request->method;
+  if (!method.variant.online || !method.entry->manifest.empty()) return std::nullopt;
+  const auto delay = std::find_if(method.configuration.begin(), method.configuration.end(),
+                                  [](const auto& setting) { return setting.first == "delay"; });
+  const double* seconds =
+      delay == method.configuration.end() ? nullptr : std::get_if<double>(&delay->second);
+  return OnlineRule{task.request->name, seconds != nullptr ? *seconds : 0.0, task.options.threads};
+}
+
 /// Where an answer's pieces are kept, one for each scan.
 ScanSpool spool_of(const MethodTask& task, const char* what) {
   const std::size_t scans = task.sequence->scans->size();
@@ -85,7 +96,8 @@ MethodAnswer run_remover(Remover& remover, const MethodTask& task) {
   const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
   std::optional<LoadingAhead> ahead;
   if (task.options.loads_ahead && hardware_threads() > 1) ahead.emplace(local);
-  const TimedSource scans(ahead ? static_cast<const ScanSource&>(*ahead) : local);
+  const TimedSource scans(ahead ? static_cast<const ScanSource&>(*ahead) : local,
+                          online_rule(task));
   CheckedSink sink(name, scans, MaskStore(spool_of(task, "masks")));
   StageTimes times;
   RunContext context;

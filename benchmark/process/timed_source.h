@@ -3,20 +3,38 @@
 
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/scan/scan_source.h"
 
 namespace raymoval {
 
+/// What an online method has to keep to: it asks for each scan once, and answers for scan t before
+/// it asks for one that came more than `delay_s` later. With several threads it may work on two
+/// batches of as many scans (see methods/common/prepared_scans.h); with one thread the check is
+/// exact.
+struct OnlineRule {
+  std::string method;  ///< For messages.
+  double delay_s = 0.0;
+  int threads = 1;
+};
+
 /// Hands on the scans of a source. It measures the time that reading them takes, so that a method's
 /// own time can be told from that of the disk, and it keeps the number of points of each scan.
 class TimedSource : public ScanSource {
  public:
   /// The calling thread becomes the owner: the time that it waits is not counted as the method's.
-  explicit TimedSource(const ScanSource& source)
-      : source_(source), owner_(std::this_thread::get_id()), counts_(source.size()) {}
+  /// @param rule of the method that reads; no value if it is offline
+  explicit TimedSource(const ScanSource& source, std::optional<OnlineRule> rule = std::nullopt)
+      : source_(source),
+        owner_(std::this_thread::get_id()),
+        rule_(std::move(rule)),
+        counts_(source.size()),
+        times_(source.size()) {}
+  /// @throws MethodError if an online method asks for a scan again
   [[nodiscard]] std::size_t size() const override { return source_.size(); }
   [[nodiscard]] Scan load(std::size_t index) const override;
   [[nodiscard]] Pose pose(std::size_t index) const override { return source_.pose(index); }
@@ -26,13 +44,18 @@ class TimedSource : public ScanSource {
   [[nodiscard]] double waited_seconds() const;
   /// The number of points of scan `index`. Reads the scan only if nobody has read it yet.
   [[nodiscard]] std::size_t point_count(std::size_t index) const;
+  /// @throws MethodError if an online method answers for scan `index` only now
+  void check_in_time(std::size_t index) const;
 
  private:
   const ScanSource& source_;
   std::thread::id owner_;
+  std::optional<OnlineRule> rule_;
   mutable std::mutex mutex_;
   mutable double waited_ = 0.0;
   mutable std::vector<std::optional<std::size_t>> counts_;
+  mutable std::vector<std::optional<double>> times_;  ///< Of the scans that were asked for.
+  mutable std::size_t end_ = 0;                       ///< One after the last of these.
 };
 
 }  // namespace raymoval

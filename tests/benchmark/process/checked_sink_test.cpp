@@ -28,6 +28,59 @@ TEST_CASE("The sink holds a method to one mask of the right size per scan") {
   CHECK(masks.removed_count() == 2);
 }
 
+namespace {
+
+/// A scan with one point every tenth of a second.
+class TenHertz : public test::TwoScans {
+ public:
+  [[nodiscard]] std::size_t size() const override { return 20; }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan = TwoScans::load(1);
+    scan.index = index;
+    scan.time_s = 0.1 * static_cast<double>(index);
+    return scan;
+  }
+};
+
+/// What became of an answer for scan 0 after all scans up to `last` were read; empty if it is
+/// accepted.
+std::string fault_of_answer(double delay_s, int threads, std::size_t last) {
+  const TenHertz world;
+  const TimedSource scans(world, OnlineRule{"mine", delay_s, threads});
+  CheckedSink sink("mine", scans, MaskStore(20));
+  for (std::size_t scan = 0; scan <= last; ++scan) (void)scans.load(scan);
+  try {
+    sink.accept(0, {1});
+  } catch (const MethodError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("An online method reads each scan once") {
+  const test::TwoScans world;
+  const TimedSource online(world, OnlineRule{"mine", 0.0, 1});
+  (void)online.load(0);
+  (void)online.load(1);
+  CHECK_THROWS_WITH(online.load(0), Contains("'mine'") && Contains("scan 0 a second time"));
+  const TimedSource offline(world);
+  (void)offline.load(0);
+  CHECK(offline.load(0).size() == 3);
+}
+
+TEST_CASE("An online method answers before it reads on, or within its delay") {
+  CHECK(fault_of_answer(0.0, 1, 0).empty());
+  CHECK_THAT(fault_of_answer(0.0, 1, 1), Contains("answers for scan 0 after it has read scan 1"));
+  // Four threads prepare four scans while they take in the four before.
+  CHECK(fault_of_answer(0.0, 4, 7).empty());
+  CHECK_THAT(fault_of_answer(0.0, 4, 8), Contains("after it has read scan 8"));
+  // Half a second later it has seen scans 0 to 5, and scan 6 tells that the time has come.
+  CHECK(fault_of_answer(0.5, 1, 6).empty());
+  CHECK_THAT(fault_of_answer(0.5, 1, 7), Contains("and those of the 0.5 s after it"));
+}
+
 TEST_CASE("Evidence becomes a confidence in steps of 1/250, once per scan and point") {
   const test::TwoScans world;  // Three points, then one.
   const TimedSource scans(world);
