@@ -13,7 +13,8 @@
 #   REFERENCE   folder of the reference (default: .raymoval-reference)
 #   COMPARE     options of `raymoval compare` (default: --across parameters,version)
 #   OUT         folder for the run, compare.md and compare.xml (default: raymoval-out)
-#   KEEP        yes: a run that is not worse becomes the reference
+#   KEEP        yes: a run that is better becomes the reference: no rate of it is worse at all, whatever
+#               COMPARE tolerates, or the reference would sink by one tolerance after the other
 #
 # Without a reference the run becomes it. The exit code is that of `raymoval compare`: 0 the same or
 # better, 1 worse, 2 not comparable.
@@ -40,9 +41,10 @@ if [[ ! -e $reference/results.json ]]; then
   exit 0
 fi
 status=0
-"$program" compare "$out/run" "$reference" "${compare[@]}" --format junit -o "$out/compare.xml" || status=$?
-"$program" compare "$out/run" "$reference" "${compare[@]}" --format md -o "$out/compare.md" >/dev/null || true
-if [[ $status -eq 0 && ${KEEP:-} == yes ]]; then
+"$program" compare "$out/run" "$reference" "${compare[@]}" --format junit --overwrite -o "$out/compare.xml" || status=$?
+"$program" compare "$out/run" "$reference" "${compare[@]}" --format md --overwrite -o "$out/compare.md" >/dev/null || true
+if [[ $status -eq 0 && ${KEEP:-} == yes ]] &&
+  "$program" compare "$out/run" "$reference" --across parameters,version >/dev/null 2>&1; then
   "$program" compare "$out/run" "$reference" --update
 fi
 exit "$status"
