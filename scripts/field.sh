@@ -55,7 +55,7 @@ delay=
 if [[ -z ${ONLY:-} || town/raymoval_plus:online-lag:delay=1 == $ONLY ]]; then
   delay=yes
   take delay/scenes field-delay
-  "$raymoval" picture out/delay/scenes --kind sweep -o results/pictures/delay.svg
+  "$raymoval" picture out/delay/scenes --kind sweep --overwrite -o results/pictures/delay.svg
 fi
 
 # drive_suite SUITE: the methods of a shipped suite, and the drive at three rates.
@@ -92,4 +92,4 @@ chosen=()
 for method in "${pictures[@]}"; do chosen+=(--method "$method"); done
 "$raymoval" run --sequence town:seed=304 --sequence highway:seed=304 --sequence walk:seed=304 "${chosen[@]}" \
   --keep-removals --jobs "$jobs" --out $out/pictures >/dev/null
-"$raymoval" picture $out/pictures -o results/pictures/field_maps.png --size 300
+"$raymoval" picture $out/pictures --overwrite -o results/pictures/field_maps.png --size 300

@@ -25,8 +25,8 @@ run=${1:-out/pictures}
   --method raymoval_plus:offline --method raymoval:offline --method octomap:ground \
   --method removert:rm3 --keep-removals --out "$run" >/dev/null
 
-"$raymoval" picture "$run" -o $pictures/maps.png --size 300
-"$raymoval" picture "$run" -o $pictures/overview.png --kind overview --sequence town \
+"$raymoval" picture "$run" --overwrite -o $pictures/maps.png --size 300
+"$raymoval" picture "$run" --overwrite -o $pictures/overview.png --kind overview --sequence town \
   --method raymoval_plus:offline --size 620
 
 # The steps of raymoval_plus, and where it fails.
@@ -48,10 +48,10 @@ EOF
 "$raymoval" run "$run-plus.json" --keep-removals --out "$run-plus" >/dev/null
 # failure NAME SEQUENCE CROP [RESOLUTION]: a place of a cleaned map.
 failure() {
-  "$raymoval" picture "$run-plus" -o "$pictures/plus_$1.png" --only "$2/all-steps*" --crop "$3" \
+  "$raymoval" picture "$run-plus" --overwrite -o "$pictures/plus_$1.png" --only "$2/all-steps*" --crop "$3" \
     --resolution "${4:-0.1}"
 }
-"$raymoval" picture "$run-plus" -o $pictures/plus_steps.png --only 'suburb/evidence*' \
+"$raymoval" picture "$run-plus" --overwrite -o $pictures/plus_steps.png --only 'suburb/evidence*' \
   --only 'suburb/with-vote*' --only 'suburb/all-steps*' \
   --crop 10:58:-14:14 --resolution 0.1
 failure follower crossing -12:28:-14:14

@@ -132,18 +132,6 @@ void check_folder(const OutputPath& output, bool overwrite) {
   }
 }
 
-/// All files that a sequence is read from, as far as it says so.
-std::vector<fs::path> files_of(const Sequence& sequence) {
-  std::vector<fs::path> files = sequence.input_files;
-  if (const FileScanSource* source = stored_files(sequence)) {
-    for (const FrameEntry& frame : source->frames()) {
-      files.push_back(frame.path);
-      if (!frame.label_path.empty()) files.push_back(frame.label_path);
-    }
-  }
-  return files;
-}
-
 void check_inputs_stay(const std::vector<fs::path>& inputs,
                        const std::vector<OutputPath>& outputs) {
   std::set<std::pair<dev_t, ino_t>> identities;
@@ -175,6 +163,17 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
     return std::nullopt;
   }
   return std::pair{status.st_dev, status.st_ino};
+}
+
+std::vector<fs::path> files_of(const Sequence& sequence) {
+  std::vector<fs::path> files = sequence.input_files;
+  if (const FileScanSource* source = stored_files(sequence)) {
+    for (const FrameEntry& frame : source->frames()) {
+      files.push_back(frame.path);
+      if (!frame.label_path.empty()) files.push_back(frame.label_path);
+    }
+  }
+  return files;
 }
 
 bool is_folder_output(OutputKind kind) {

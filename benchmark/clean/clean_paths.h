@@ -56,6 +56,9 @@ struct CleanPaths {
 /// none. @throws UnreadableError (see core/files/file_kind.h)
 std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
 
+/// All files that a sequence is read from, as far as it says so.
+std::vector<std::filesystem::path> files_of(const Sequence& sequence);
+
 /// The record that stands in a folder of tiles or of scans and lists its files; else empty. Only
 /// such a folder is replaced.
 const char* record_name(OutputKind kind);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -81,6 +82,23 @@ struct WorkFlags {
   /// As many threads as were asked for, or one for each core. @throws UsageError
   [[nodiscard]] int thread_count() const;
   [[nodiscard]] ProgressStyle style() const { return progress_style(quiet); }
+};
+
+/// The file that a command writes besides what it prints, and --overwrite.
+struct OutputFlag {
+  std::string option;  ///< Such as "--json".
+  std::string path;    ///< Empty if it was not asked for.
+  bool overwrite = false;
+
+  /// @param names of the option, such as "-o,--output"
+  void add_to(CommandOptions& options, const std::string& names, const std::string& sentence);
+  /// Called before the work. @throws UsageError if there is no folder for the file, if it is there
+  /// already and is not to be replaced, or if it is one of the records of a run
+  void check() const;
+  /// @param inputs files that are read. @throws UsageError if the output is one of them
+  void check_is_none_of(const std::vector<std::filesystem::path>& inputs) const;
+  /// Writes the content if the file was asked for. @throws DataError
+  void write(const std::string& content) const;
 };
 
 /// Says how a sequence was opened, unless progress is quiet, and always warns of scans that are

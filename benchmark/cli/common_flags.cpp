@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/cli/command.h"
 #include "benchmark/suite/reading_options.h"
+#include "benchmark/clean/clean_paths.h"
+#include "benchmark/run/folder/run_folder.h"
+#include "core/files/file_kind.h"
+#include "core/files/file_writer.h"
+#include "core/files/files.h"
 #include "core/parallel.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
@@ -27,6 +32,42 @@ void WorkFlags::add_to(CommandOptions& options) {
 int WorkFlags::thread_count() const {
   const int given = parse_threads(threads);
   return given > 0 ? given : hardware_threads();
+}
+
+void OutputFlag::add_to(CommandOptions& options, const std::string& names,
+                        const std::string& sentence) {
+  option = names.substr(0, names.find(','));
+  options.add(names, "FILE", path, sentence);
+  options.add_flag("--overwrite", overwrite, "Replace the file of " + option + " if it is there");
+}
+
+void OutputFlag::check() const {
+  if (path.empty()) return;
+  check_folder_of(path);
+  const FileKind there = file_kind(path);
+  if (there == FileKind::kFolder) {
+    throw UsageError(option + " " + path + ": is a folder, expected a file name.");
+  }
+  if (is_record_of_run(path)) {
+    throw UsageError(option + " " + path +
+                     ": is a record of a run, which is never replaced. Choose another name.");
+  }
+  if (there == FileKind::kFile && !overwrite) {
+    throw UsageError(option + " " + path +
+                     ": is there already; choose another name, or replace it with --overwrite.");
+  }
+}
+
+void OutputFlag::check_is_none_of(const std::vector<std::filesystem::path>& inputs) const {
+  const auto identity = path.empty() ? std::nullopt : identity_of(path);
+  for (const std::filesystem::path& input : inputs) {
+    if (!identity || identity != identity_of(input)) continue;
+    throw UsageError(option + " " + path + ": is read as an input; choose another name.");
+  }
+}
+
+void OutputFlag::write(const std::string& content) const {
+  if (!path.empty()) write_atomically(output_target(path), content);
 }
 
 void tell_opening(const Sequence& sequence, Progress& progress) {

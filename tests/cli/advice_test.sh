@@ -41,14 +41,14 @@ expect 2 "--data town: no such folder" picture kept -o map.png --only '*' --quie
 if [[ $view -eq 1 ]]; then
   expect 0 "wrote" report kept -o page.html --quiet --data data/05
   cp page.html before.html
-  expect 2 "no such folder" report kept -o page.html --quiet --data nowhere
-  expect 2 "it holds 1 scan, and the run had 2" report kept -o page.html --quiet --data one
-  expect 2 "no known layout" report kept -o page.html --quiet --data empty
+  expect 2 "no such folder" report kept -o page.html --overwrite --quiet --data nowhere
+  expect 2 "it holds 1 scan, and the run had 2" report kept -o page.html --overwrite --quiet --data one
+  expect 2 "no known layout" report kept -o page.html --overwrite --quiet --data empty
   holds "the page is as it was" cmp page.html before.html
 else
   expect 2 "which this program was built without" report kept -o page.html --quiet --data data/05
   expect 2 "which this program was built without" report kept -o page.html --points 5000
-  expect 0 "wrote" report kept -o page.html --quiet
+  expect 0 "wrote" report kept -o page.html --quiet --overwrite
 fi
 expect 2 "--data data/05: is for the 3-D view, which --no-points leaves out" \
   report kept --no-points --data data/05

@@ -171,8 +171,25 @@ python3 -c 'import xml.etree.ElementTree as x; assert x.parse("compared.junit").
   --set raymoval.tau0=0.2 --out other_frames >out.txt 2>err.txt
 expect 2 "data fingerprint" compare other_frames reference
 
+# No output replaces an input, a record of a run, or any file without --overwrite.
+there="is there already; choose another name, or replace it with --overwrite"
+expect 2 "-o compared.text: $there" compare other_tau reference -o compared.text
+expect 2 "street / raymoval:online" compare other_tau reference -o compared.text --overwrite
+for record in results.json run.json results.csv cells/street/noop.html; do
+  expect 2 "-o run/$record: is a record of a run" compare run reference -o run/$record --overwrite
+done
+expect 2 "-o reference/results.json: is read as an input" \
+  compare run reference -o reference/results.json --overwrite
+expect 2 "other_frames/results.json: is a record of a run" compare run other_frames --update
+
 # Scores of kept removals are those of the run.
 expect 0 "PR" score "${short[@]}" --predictions $cell/removals --json score.json
+expect 2 "--json score.json: $there" score "${short[@]}" --predictions $cell/removals --json score.json
+expect 2 "--json $cell/removals/000000.label: is a record of a run" \
+  score "${short[@]}" --predictions $cell/removals --json $cell/removals/000000.label --overwrite
+cp -r $cell/removals predictions
+expect 2 "--json predictions/000000.label: is read as an input" \
+  score "${short[@]}" --predictions predictions --json predictions/000000.label --overwrite
 counts() { sed -n '/"counts"/,/}/p' "$1"; }
 holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') \
   <(counts $cell/cell.json | tr -d ' ')
@@ -402,6 +419,12 @@ holds "an inspection with findings exits with 1" test $? -eq 1
 "$raymoval" inspect shortened --quiet >found.txt 2>err.txt
 holds "a finding is named" grep -q '^finding poses-of-another-sequence: poses.txt: .* Take the' found.txt
 expect 2 "no such folder" inspect nowhere
+for input in poses.txt calib.txt labels/000000.label velodyne/000000.bin; do
+  cp sim/town/$input kept.input
+  expect 2 "--json sim/town/$input: is read as an input" score sim/town --predictions sim/town/labels \
+    --json sim/town/$input --overwrite --quiet
+  holds "$input stays" cmp kept.input sim/town/$input
+done
 expect 2 "inspect what" inspect
 expect 2 "--point-time-unit min: expected s, ms, us, ns" inspect sim/town --point-time-unit min
 expect 2 "sim/town." inspect sim/town/velodyne
@@ -419,38 +442,38 @@ expect 0 "" picture shown -o overview.png --kind overview --sequence street \
   --method raymoval:online --quiet
 for file in detail overview; do holds "$file is a PNG" is_png $file.png; done
 cp map.png before.png
-expect 0 "" picture shown -o map.png --quiet --threads 1
+expect 0 "" picture shown -o map.png --overwrite --quiet --threads 1
 holds "the same run gives the same picture" cmp before.png map.png
 for kind in pr-rr stages accuracy-time; do
   expect 0 "" picture shown -o $kind.svg --kind $kind
   holds "$kind is an SVG" grep -q '^<svg xmlns="http://www.w3.org/2000/svg"' $kind.svg
 done
 expect 2 "no method has what --kind sweep shows" picture shown -o sweep.svg --kind sweep
-expect 2 "which run" picture -o map.png
+expect 2 "which run" picture -o map.png --overwrite
 expect 2 "-o FILE.png" picture shown
-expect 2 "no such run folder" picture nowhere -o map.png
-expect 2 "Did you mean 'overview'" picture shown -o map.png --kind overvew
+expect 2 "no such run folder" picture nowhere -o map.png --overwrite
+expect 2 "Did you mean 'overview'" picture shown -o map.png --overwrite --kind overvew
 expect 2 ".svg" picture shown -o map.jpg --kind stages
-expect 2 "--only" picture shown -o map.png --method raymoval:online
+expect 2 "--only" picture shown -o map.png --overwrite --method raymoval:online
 expect 2 "--crop goes with --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
-expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --crop 5:1:0:1 --quiet
+expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --overwrite --crop 5:1:0:1 --quiet
 expect 2 "--crop 1000:2000:1000:2000: no point lies there" \
-  picture shown -o map.png --crop 1000:2000:1000:2000 --quiet
-expect 2 "--size" picture shown -o map.png --size 7 --quiet
-expect 2 "coarser --resolution" picture shown -o map.png --resolution 0.0001 --quiet
-expect 2 "fits no cell" picture shown -o map.png --only nothing --quiet
+  picture shown -o map.png --overwrite --crop 1000:2000:1000:2000 --quiet
+expect 2 "--size" picture shown -o map.png --overwrite --size 7 --quiet
+expect 2 "coarser --resolution" picture shown -o map.png --overwrite --resolution 0.0001 --quiet
+expect 2 "fits no cell" picture shown -o map.png --overwrite --only nothing --quiet
 expect 2 "Did you mean 'street'" picture shown -o a.png --kind overview --sequence stret --quiet
 expect 2 "--protocol" picture shown -o rates.svg --kind pr-rr --protocol erasr
-expect 2 "--keep-removals" picture run_scene -o map.png --only '*' --quiet
-expect 2 "nothing but controls" picture run_scene -o map.png --quiet
-RAYMOVAL_FONT=nowhere.ttf expect 2 "nowhere.ttf" picture shown -o map.png --quiet
+expect 2 "--keep-removals" picture run_scene -o map.png --overwrite --only '*' --quiet
+expect 2 "nothing but controls" picture run_scene -o map.png --overwrite --quiet
+RAYMOVAL_FONT=nowhere.ttf expect 2 "nowhere.ttf" picture shown -o map.png --overwrite --quiet
 mv sim/town sim/elsewhere
 expect 0 "" run --sequence sim/elsewhere --name town --method noop --quiet --keep-removals --out kept
 mv sim/elsewhere sim/town
-expect 2 "--data" picture kept -o map.png --only '*' --quiet
-expect 0 "" picture kept -o map.png --only '*' --quiet --data sim
-expect 0 "" picture kept -o map.png --only '*' --quiet --data sim/town
-expect 2 "fingerprint" picture kept -o map.png --only '*' --quiet --data seed4
+expect 2 "--data" picture kept -o map.png --overwrite --only '*' --quiet
+expect 0 "" picture kept -o map.png --overwrite --only '*' --quiet --data sim
+expect 0 "" picture kept -o map.png --overwrite --only '*' --quiet --data sim/town
+expect 2 "fingerprint" picture kept -o map.png --overwrite --only '*' --quiet --data seed4
 
 # On a terminal one line tells cell, stage, scans done; in a log nothing but what is done; with
 # --quiet nothing at all. A narrow terminal cuts it.

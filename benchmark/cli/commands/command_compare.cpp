@@ -5,6 +5,7 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/result/speed/speed_record.h"
+#include "benchmark/run/folder/run_folder.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
@@ -16,7 +17,8 @@ namespace raymoval {
 namespace {
 
 struct CompareFlags {
-  std::string run, reference, time_band, format = "text", output;
+  std::string run, reference, time_band, format = "text";
+  OutputFlag output;
   std::vector<std::string> tolerances, across;
   bool update = false, with_times = false, speed = false;
 };
@@ -90,12 +92,17 @@ std::string coloured_verdicts(const std::string& text) {
 
 ExitCode update(const CompareFlags& flags) {
   if (!flags.tolerances.empty() || !flags.across.empty() || !flags.time_band.empty() ||
-      !flags.output.empty()) {
+      !flags.output.path.empty()) {
     throw UsageError(
         "--update compares nothing: leave --tolerance, --across, --time-band and -o out.");
   }
   const std::filesystem::path run = find_results(flags.run);
   const std::filesystem::path file = reference_file(flags.reference);
+  if (is_record_of_run(file)) {
+    throw UsageError(file.string() +
+                     ": is a record of a run, which no reference replaces. Name another folder or "
+                     "file for the reference.");
+  }
   write_reference(run, file, flags.with_times);
   print("wrote " + file.string() +
         (flags.with_times
@@ -133,7 +140,7 @@ std::filesystem::path speed_file(const std::string& given) {
 /// Whole cells' times of two machines or versions.
 ExitCode compare_speeds(const CompareFlags& flags) {
   if (flags.update || flags.with_times || !flags.tolerances.empty() || !flags.across.empty() ||
-      !flags.output.empty() || flags.format != "text") {
+      !flags.output.path.empty() || flags.format != "text") {
     throw UsageError("--speed compares times only: of the other options it goes with --time-band.");
   }
   const double band = options_of(flags).time_band.value_or(kSpeedBand);
@@ -160,13 +167,15 @@ ExitCode compare(const CompareFlags& flags) {
   if (flags.update) return update(flags);
   const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
   (void)comparison_in(flags.format, {}, subject);  // A wrong format shows before the work.
-  if (!flags.output.empty()) check_folder_of(flags.output);
+  flags.output.check();
+  const std::filesystem::path run = find_results(flags.run);
+  const std::filesystem::path reference = find_results(flags.reference);
+  flags.output.check_is_none_of({run, reference});
   const Comparison comparison =
-      compare_results(read_result_set(find_results(flags.run)),
-                      read_result_set(find_results(flags.reference)), subject.options);
+      compare_results(read_result_set(run), read_result_set(reference), subject.options);
   const std::string text = comparison_in(flags.format, comparison, subject);
-  if (!flags.output.empty()) write_atomically(output_target(flags.output), text);
-  const bool shows_text = !flags.output.empty() || flags.format == "text";
+  flags.output.write(text);
+  const bool shows_text = !flags.output.path.empty() || flags.format == "text";
   print(shows_text ? coloured_verdicts(comparison_text(comparison)) : text);
   return judged(comparison, subject.options);
 }
@@ -192,8 +201,8 @@ void add_compare_options(CommandOptions& options, CompareFlags& flags) {
       "Compare two speed.json of scripts/benchmark.sh, or their folders: times of whole "
       "cells, relative to a fixed kernel of the same run");
   options.add("--format", "FORMAT", flags.format, "text, md, junit or json (default: text)");
-  options.add("-o,--output", "FILE", flags.output,
-              "Write the comparison to this file, and print it as text");
+  flags.output.add_to(options, "-o,--output",
+                      "Write the comparison to this file, and print it as text");
   options.add_flag("--update", flags.update,
                    "Make RUN the new REFERENCE, without times and machine; compare nothing");
   options.add_flag("--with-times", flags.with_times,

@@ -9,15 +9,14 @@
 #include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/run/folder/kept_run.h"
-#include "core/files/file_writer.h"
-#include "core/files/files.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
 
 struct PictureFlags {
-  std::string run, output, kind = "map";
+  std::string run, kind = "map";
+  OutputFlag output;
   std::vector<std::string> only;
   std::string sequence, method, crop, resolution, size, protocol, data;
   bool simulate = false;
@@ -65,15 +64,15 @@ void check_flags(const PictureFlags& flags) {
     throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
   }
   const std::string extension = is_chart(flags.kind) ? ".svg" : ".png";
-  if (flags.output.empty()) {
+  if (flags.output.path.empty()) {
     throw UsageError("-o FILE" + extension + " is missing: name the picture's file.");
   }
-  if (std::filesystem::path(flags.output).extension() != extension) {
-    throw UsageError("-o " + flags.output + ": --kind " + flags.kind + " makes a " + extension +
+  if (std::filesystem::path(flags.output.path).extension() != extension) {
+    throw UsageError("-o " + flags.output.path + ": --kind " + flags.kind + " makes a " + extension +
                      " file. Give the name this ending.");
   }
   check_options(flags);
-  check_folder_of(flags.output);
+  flags.output.check();
 }
 
 WorldWindow parse_crop(const std::string& text) {
@@ -158,9 +157,9 @@ ExitCode draw(const PictureFlags& flags) {
   Progress progress(flags.work.style());
   try {
     if (is_chart(flags.kind)) {
-      write_atomically(output_target(flags.output), charted(flags).svg());
+      flags.output.write(charted(flags).svg());
     } else {
-      write_atomically(output_target(flags.output), drawn(flags, progress).png_bytes());
+      flags.output.write(drawn(flags, progress).png_bytes());
     }
   } catch (...) {
     progress.end();
@@ -172,8 +171,8 @@ ExitCode draw(const PictureFlags& flags) {
 
 void add_options(CommandOptions& options, PictureFlags& flags) {
   options.add("run", "RUN", flags.run, "The run folder");
-  options.add("-o,--output", "FILE", flags.output,
-              "The picture, a .png file, or of a chart a .svg file. An existing file is replaced");
+  flags.output.add_to(options, "-o,--output",
+                      "The picture, a .png file, or of a chart a .svg file");
   options.add("--kind", "KIND", flags.kind,
               "map (default), overview, pr-rr, stages, accuracy-time or sweep; the last four "
               "are charts");

@@ -17,7 +17,8 @@ namespace raymoval {
 namespace {
 
 struct ReportFlags {
-  std::string run, output, against, data, points;
+  std::string run, against, data, points;
+  OutputFlag output;
   bool no_points = false, simulate = false;
   WorkFlags work;
 };
@@ -61,14 +62,14 @@ std::string size_text(std::size_t bytes) {
 
 ExitCode report(const ReportFlags& flags) {
   if (flags.run.empty()) throw UsageError("which run? Expected `raymoval report RUN`.");
-  if (!flags.output.empty()) {
-    const std::string extension = std::filesystem::path(flags.output).extension().string();
+  if (!flags.output.path.empty()) {
+    const std::string extension = std::filesystem::path(flags.output.path).extension().string();
     if (extension != ".html" && extension != ".htm") {
-      throw UsageError("-o " + flags.output +
+      throw UsageError("-o " + flags.output.path +
                        ": a report is a page, expected a name that ends in .html. A browser prints "
                        "it to PDF.");
     }
-    check_folder_of(flags.output);
+    flags.output.check();
   }
   const int threads = flags.work.thread_count();
   Progress progress(flags.work.style());
@@ -96,8 +97,9 @@ ExitCode report(const ReportFlags& flags) {
   for (const std::string& warning : page.warnings) {
     print_error("raymoval: left out of the 3-D view: " + warning);
   }
-  const std::filesystem::path output =
-      flags.output.empty() ? results.parent_path() / "report.html" : output_target(flags.output);
+  const std::filesystem::path output = flags.output.path.empty()
+                                           ? results.parent_path() / "report.html"
+                                           : output_target(flags.output.path);
   write_atomically(output, page.html);
   print("wrote " + output.string() + " (" + size_text(page.html.size()) + ")\n");
   return ExitCode::kDone;
@@ -109,7 +111,8 @@ Command add_report_command(CommandParser& program) {
   auto flags = std::make_shared<ReportFlags>();
   CommandOptions options = program.add_command("report", "Writes a run as a page with a 3-D view");
   options.add("run", "RUN", flags->run, "The run folder");
-  options.add("-o,--output", "FILE", flags->output, "The page to write (default: RUN/report.html)");
+  flags->output.add_to(options, "-o,--output",
+                       "The page to write (default: RUN/report.html, which is replaced)");
   options.add("--against", "RUN", flags->against, "Another run: show what changed since it");
   options.add("--data", "PATH", flags->data,
               "Where the sequences are, if they are not where the run read them");

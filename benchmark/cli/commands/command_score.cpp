@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
+#include "benchmark/clean/clean_paths.h"
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/commands/output_json.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/run/scored_sequence.h"
-#include "core/files/file_writer.h"
+#include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/scan/local_frame.h"
 #include "core/terminal_colour.h"
@@ -18,7 +19,8 @@ namespace raymoval {
 namespace {
 
 struct ScoreFlags {
-  std::string sequence, predictions, cloud, voxel, json;
+  std::string sequence, predictions, cloud, voxel;
+  OutputFlag json;
   std::vector<std::string> protocols, settings;
   SequenceFlags reading;
   WorkFlags work;
@@ -105,7 +107,7 @@ void check_flags(const ScoreFlags& flags) {
   if (!flags.predictions.empty() && !flags.cloud.empty()) {
     throw UsageError("--predictions and --cloud exclude each other; score them one by one.");
   }
-  if (!flags.json.empty()) check_folder_of(flags.json);
+  flags.json.check();
   if (flags.cloud.empty() && !flags.voxel.empty()) {
     throw UsageError("--voxel goes with --cloud: it says how the cloud was thinned.");
   }
@@ -128,6 +130,18 @@ std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   return suite.protocols;
 }
 
+void check_inputs_stay(const ScoreFlags& flags, const Sequence& sequence) {
+  std::vector<std::filesystem::path> inputs = files_of(sequence);
+  for (const std::string& file :
+       {flags.cloud, flags.reading.text("poses"), flags.reading.text("label-rule")}) {
+    if (!file.empty()) inputs.emplace_back(file);
+  }
+  if (is_folder(flags.predictions)) {
+    for (const std::filesystem::path& file : entries_of(flags.predictions)) inputs.push_back(file);
+  }
+  flags.json.check_is_none_of(inputs);
+}
+
 ExitCode score(const ScoreFlags& flags) {
   check_flags(flags);
   const std::vector<ProtocolRequest> protocols = requested_protocols(flags);
@@ -136,6 +150,7 @@ ExitCode score(const ScoreFlags& flags) {
   Sequence sequence = open_sequence(flags.sequence, flags.reading.options(),
                                     {threads, &progress, &interrupt_flag()});
   tell_opening(sequence, progress);
+  check_inputs_stay(flags, sequence);
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
@@ -147,7 +162,7 @@ ExitCode score(const ScoreFlags& flags) {
   }
   progress.end();
   print(score_text(record));
-  if (!flags.json.empty()) write_atomically(output_target(flags.json), output_json(record));
+  flags.json.write(output_json(record));
   return ExitCode::kDone;
 }
 
@@ -170,7 +185,7 @@ Command add_score_command(CommandParser& program) {
   options.add("--set", "SETTING", flags->settings,
               "An option of a protocol: protocol:NAME.key=value");
   flags->reading.add_to(options);
-  options.add("--json", "FILE", flags->json, "Write counts and rates to this file");
+  flags->json.add_to(options, "--json", "Write counts and rates to this file");
   flags->work.add_to(options);
   options.set_footer(
       "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "

@@ -103,6 +103,17 @@ void prepare_run_folder(const path& out) {
   if (!has_file(out / kRunMarker)) write_atomically(out / kRunMarker, kMarkerText);
 }
 
+bool is_record_of_run(const path& file) {
+  const path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
+  if (has_file(folder / kRunMarker) || has_file(folder / "run.json")) {
+    return is_run_file(file.filename());
+  }
+  for (path above = folder; above != above.parent_path(); above = above.parent_path()) {
+    if (above.filename() == "cells" && has_file(above.parent_path() / "run.json")) return true;
+  }
+  return false;
+}
+
 void sweep_run_folder(const path& out) {
   for (const path& entry : entries_of(out)) {
     std::error_code ignored;

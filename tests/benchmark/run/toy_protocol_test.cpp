@@ -61,7 +61,7 @@ void run_street(const std::filesystem::path& out, const std::string& step,
 std::string output_of(ExitCode expected, std::vector<const char*> arguments,
                       const std::filesystem::path& file) {
   arguments.insert(arguments.begin(), "raymoval");
-  arguments.push_back("-o");
+  arguments.insert(arguments.end(), {"--overwrite", "-o"});
   const std::string path = file.string();
   arguments.push_back(path.c_str());
   CHECK(run_command_line(static_cast<int>(arguments.size()), arguments.data(), methods()) ==
