@@ -126,6 +126,7 @@ struct ProtocolEntry {
   std::string name;
   std::string version;  ///< Raised when counts may change.
   std::string sentence;
+  std::string bibtex = {};  ///< Of the paper that it comes from.
   std::vector<ParameterSpec> parameters;
   std::vector<RateSpec> rates;    ///< All that its results may have, in the order of tables.
   std::vector<CountSpec> counts;  ///< All that its results may have.

@@ -26,6 +26,7 @@ struct MethodEntry {
   std::string name;
   std::string sentence;
   std::string source;              ///< The paper, or where else the method comes from.
+  std::string bibtex = {};         ///< Of the paper; empty if there is none.
   std::string version = "1";       ///< It is raised whenever answers may change.
   std::vector<std::string> notes;  ///< Decisions and deviations from the source, a sentence each.
   std::vector<ParameterSpec> parameters;

@@ -8,8 +8,8 @@
 # A line is a room, or a folder of a room, with what is in it from below to above. `.` stands for the
 # files right in it, and NAME for the files right in NAME/, or for NAME.h and NAME.cpp. What is in a
 # folder below NAME/ belongs to NAME if NAME has a line of its own, which then orders it. Names that
-# `|` joins lie side by side: none includes from another. What is not in the table is an error. A
-# room may have several lines; one that begins with `|` goes on with the last names side by side.
+# `|` joins lie side by side: none includes from another, and `*` stands for all folders that the room's
+# lines do not name, side by side. What is not in the table is an error. A room may have several lines.
 rooms="core datasets|methods|eval benchmark python"
 folders="
 core                   . files process scan simd
@@ -21,9 +21,7 @@ datasets/bags          bag|bag_file bag_index|unpack|messages ros1|mcap|ros2 ope
 datasets/clouds        format las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .
-methods                remover calibration method_entry common
-methods                controls|external|raymoval|raymoval_plus
-methods                |octomap|peopleremover|removert|erasor|dufomap|beautymap|freedom|hmm_mos|dynablox|mapcleaner registry
+methods                remover calibration method_entry common * registry
 methods/common         . patchwork
 methods/raymoval       kernels .
 methods/raymoval_plus  common terrain evidence objects online .
@@ -54,7 +52,7 @@ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](core|datasets|metho
     function add_places(room, first, count, words,    i, k, names, n) {
       for (i = first; i <= count; ++i) {
         n = split(words[i], names, "|")
-        if (words[i] !~ /^\|/) ++rank[room]
+        ++rank[room]
         for (k = 1; k <= n; ++k) level[room, names[k]] = rank[room]
       }
       known[room] = 1
@@ -69,6 +67,12 @@ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](core|datasets|metho
       if ((room, name) in level) return name
       while (sub(/\/[^\/]*$/, "", name)) {
         if ((room, name) in level && (room == "" ? name : room "/" name) in known) return name
+      }
+      name = rest
+      sub(/\/.*/, "", name)
+      if ((room, "*") in level) {
+        level[room, name] = level[room, "*"]
+        return name
       }
       return ""
     }

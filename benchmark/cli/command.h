@@ -33,6 +33,7 @@ Command add_picture_command(CommandParser& program);
 Command add_compare_command(CommandParser& program);
 Command add_list_command(CommandParser& program);
 Command add_describe_command(CommandParser& program);
+Command add_cite_command(CommandParser& program);
 Command add_score_command(CommandParser& program);
 Command add_clean_command(CommandParser& program);
 Command add_simulate_command(CommandParser& program);

@@ -64,9 +64,9 @@ ExitCode run_program(int argc, const char* const* argv) {
   std::vector<Command> commands;
   for (const auto add :
        {add_run_command, add_plan_command, add_run_method_command, add_table_command,
-        add_compare_command, add_list_command, add_describe_command, add_score_command,
-        add_clean_command, add_simulate_command, add_inspect_command, add_picture_command,
-        add_report_command, add_help_command}) {
+        add_compare_command, add_list_command, add_describe_command, add_cite_command,
+        add_score_command, add_clean_command, add_simulate_command, add_inspect_command,
+        add_picture_command, add_report_command, add_help_command}) {
     commands.push_back(add(program));
   }
   const std::string chosen = program.parse(argc, argv);

@@ -94,6 +94,16 @@ ProtocolEntry dynamicmap_protocol_entry() {
           .sentence =
               "Static and dynamic accuracy over points (KTH DynamicMap benchmark): SA, DA, "
               "AA, HA.",
+          .bibtex = R"(@inproceedings{zhang2023benchmark,
+  author = {Zhang, Qingwen and Duberg, Daniel and Geng, Ruoyu and Jia, Mingkai and Wang, Lujia
+    and Jensfelt, Patric},
+  title = {A Dynamic Points Removal Benchmark in Point Cloud Maps},
+  booktitle = {IEEE International Conference on Intelligent Transportation Systems (ITSC)},
+  year = {2023},
+  pages = {608--614},
+  doi = {10.1109/ITSC57777.2023.10422094}
+}
+)",
           .parameters = option_table().specs(),
           .rates = accuracy_rate_list(),
           .counts = point_count_list(),

@@ -203,6 +203,19 @@ ProtocolEntry mos_protocol_entry() {
           .sentence =
               "Moving-object segmentation, point by point in each scan: precision, recall and "
               "intersection over union of the moving class.",
+          .bibtex = R"(@article{chen2021moving,
+  author = {Chen, Xieyuanli and Li, Shijie and Mersch, Benedikt and Wiesmann, Louis and Gall,
+    J{\"u}rgen and Behley, Jens and Stachniss, Cyrill},
+  title = {Moving Object Segmentation in 3D LiDAR Data: A Learning-Based Approach Exploiting
+    Sequential Data},
+  journal = {IEEE Robotics and Automation Letters},
+  year = {2021},
+  volume = {6},
+  number = {4},
+  pages = {6529--6536},
+  doi = {10.1109/LRA.2021.3093567}
+}
+)",
           .parameters = option_table().specs(),
           .rates = mos_rates(),
           .counts = {{"static_points", true},

@@ -80,6 +80,19 @@ MethodEntry beautymap_entry() {
       "Columns of bits: what the map has in a column and a scan has not, although it looks there, "
       "goes, down to the ground.";
   entry.source = "BeautyMap: Binary-Encoded Adaptable Ground Matrix (RA-L 2024)";
+  entry.bibtex = R"(@article{jia2024beautymap,
+  author = {Jia, Mingkai and Zhang, Qingwen and Yang, Bowen and Wu, Jin and Liu, Ming and
+    Jensfelt, Patric},
+  title = {{BeautyMap}: Binary-Encoded Adaptable Ground Matrix for Dynamic Points Removal in
+    Global Maps},
+  journal = {IEEE Robotics and Automation Letters},
+  year = {2024},
+  volume = {9},
+  number = {7},
+  pages = {6256--6263},
+  doi = {10.1109/LRA.2024.3402625}
+}
+)";
   entry.notes = {
       // The page of the method has all.
       "The default is the public program with its quirks, each of which has a switch (public_...).",

@@ -53,6 +53,17 @@ MethodEntry dufomap_entry() {
       "Void voxels: what one scan once saw certainly free, with all its neighbours, holds only "
       "moving objects, before and after.";
   entry.source = "DUFOMap: Efficient Dynamic Awareness Mapping (RA-L 2024)";
+  entry.bibtex = R"(@article{duberg2024dufomap,
+  author = {Duberg, Daniel and Zhang, Qingwen and Jia, Mingkai and Jensfelt, Patric},
+  title = {{DUFOMap}: Efficient Dynamic Awareness Mapping},
+  journal = {IEEE Robotics and Automation Letters},
+  year = {2024},
+  volume = {9},
+  number = {6},
+  pages = {5038--5045},
+  doi = {10.1109/LRA.2024.3387658}
+}
+)";
   entry.notes = {
       // The page of the method has all.
       "The default is the public configuration (d_p 1), which reproduces the paper's table; the "

@@ -70,6 +70,18 @@ MethodEntry dynablox_entry() {
   entry.sentence =
       "A distance field finds voxels that were once free for sure; what appears there moves.";
   entry.source = "Dynablox: Real-time Detection of Diverse Dynamic Objects (RA-L 2023)";
+  entry.bibtex = R"(@article{schmid2023dynablox,
+  author = {Schmid, Lukas and Andersson, Olov and Sulser, Aurelio and Pfreundschuh, Patrick and
+    Siegwart, Roland},
+  title = {Dynablox: Real-time Detection of Diverse Dynamic Objects in Complex Environments},
+  journal = {IEEE Robotics and Automation Letters},
+  year = {2023},
+  volume = {8},
+  number = {10},
+  pages = {6259--6266},
+  doi = {10.1109/LRA.2023.3305239}
+}
+)";
   entry.notes = {
       "The default is as published and without the public program's mistakes (when it compares "
       "boxes of clusters, merges clusters, and resets voxels), which change hardly any score.",

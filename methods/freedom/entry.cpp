@@ -66,6 +66,18 @@ MethodEntry freedom_entry() {
       "Free voxels: what stands where scan after scan looked through, with all its surroundings, "
       "goes, and its neighbours go unless another scan saw them.";
   entry.source = "FreeDOM: Online Dynamic Object Removal Framework (RA-L 2025)";
+  entry.bibtex = R"(@article{li2025freedom,
+  author = {Li, Chen and Li, Wanlei and Liu, Wenhao and Shu, Yixiang and Lou, Yunjiang},
+  title = {{FreeDOM}: Online Dynamic Object Removal Framework for Static Map Construction Based
+    on Conservative Free Space Estimation},
+  journal = {IEEE Robotics and Automation Letters},
+  year = {2025},
+  volume = {10},
+  number = {6},
+  pages = {5577--5584},
+  doi = {10.1109/LRA.2025.3560881}
+}
+)";
   entry.notes = {
       // The page of the method has all.
       "As in the public program, levels of the map grow by one round less than those of a scan, a "

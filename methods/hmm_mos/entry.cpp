@@ -96,6 +96,14 @@ MethodEntry hmm_mos_entry() {
   entry.source =
       "Moving Object Segmentation in Point Cloud Data using Hidden Markov Models (IROS 2024 "
       "workshop)";
+  entry.bibtex = R"(@misc{bhandari2024hmmmos,
+  author = {Bhandari, Vedant and James, Jasmin and Phillips, Tyson and McAree, P. Ross},
+  title = {Moving Object Segmentation in Point Cloud Data using Hidden Markov Models},
+  year = {2024},
+  eprint = {2410.18638},
+  archiveprefix = {arXiv}
+}
+)";
   entry.notes = {
       // The page of the method has all.
       "The default is the public program with its lattice; offline is without it.",

@@ -54,6 +54,18 @@ MethodEntry mapcleaner_entry() {
   entry.source =
       "MapCleaner: Efficiently Removing Moving Objects from Point Cloud Maps in Autonomous Driving "
       "Scenarios (Remote Sensing 2022), ground by Patchwork++ (IROS 2022)";
+  entry.bibtex = R"(@article{fu2022mapcleaner,
+  author = {Fu, Hao and Xue, Hanzhang and Xie, Guanglei},
+  title = {{MapCleaner}: Efficiently Removing Moving Objects from Point Cloud Maps in Autonomous
+    Driving Scenarios},
+  journal = {Remote Sensing},
+  year = {2022},
+  volume = {14},
+  number = {18},
+  pages = {4496},
+  doi = {10.3390/rs14184496}
+}
+)";
   entry.notes = mapcleaner_notes();
   entry.variants = {
       {"published", "As the public program is set for KITTI.", false, {}},

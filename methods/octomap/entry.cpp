@@ -64,6 +64,18 @@ MethodEntry octomap_entry() {
   entry.source =
       "Hornung et al., OctoMap: an efficient probabilistic 3D mapping framework based on octrees, "
       "Autonomous Robots 34, 2013; liboctomap 1.9";
+  entry.bibtex = R"(@article{hornung2013octomap,
+  author = {Hornung, Armin and Wurm, Kai M. and Bennewitz, Maren and Stachniss, Cyrill and
+    Burgard, Wolfram},
+  title = {{OctoMap}: An Efficient Probabilistic 3D Mapping Framework Based on Octrees},
+  journal = {Autonomous Robots},
+  year = {2013},
+  volume = {34},
+  number = {3},
+  pages = {189--206},
+  doi = {10.1007/s10514-012-9321-0}
+}
+)";
   entry.notes = octomap_notes();
   entry.confidence = octomap_confidence();
   entry.variants = {

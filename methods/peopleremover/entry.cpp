@@ -61,6 +61,18 @@ MethodEntry peopleremover_entry() {
   entry.source =
       "Schauer and Nuechter: The Peopleremover - Removing Dynamic Objects From 3-D Point Cloud "
       "Data by Traversing a Voxel Occupancy Grid, RA-L 2018";
+  entry.bibtex = R"(@article{schauer2018peopleremover,
+  author = {Schauer, Johannes and N{\"u}chter, Andreas},
+  title = {The Peopleremover---Removing Dynamic Objects From 3-D Point Cloud Data by Traversing a
+    Voxel Occupancy Grid},
+  journal = {IEEE Robotics and Automation Letters},
+  year = {2018},
+  volume = {3},
+  number = {3},
+  pages = {1679--1686},
+  doi = {10.1109/LRA.2018.2801797}
+}
+)";
   entry.notes = {
       // The page of the method has all.
       "maxrange_method = none follows whole beams, as 3DTK did before May 2020; its present "

@@ -31,6 +31,14 @@ MethodEntry raymoval_entry() {
       "Raycasting against the map: flags what stands in front of it, erases what is "
       "seen through, validates clusters against what remains.";
   entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
+  entry.bibtex = R"(@misc{raymoval2025,
+  title = {Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping},
+  year = {2025},
+  eprint = {2605.08937},
+  archiveprefix = {arXiv},
+  note = {RiTA 2025}
+}
+)";
   entry.version = "3";
   entry.notes = {
       "The paper leaves the erase test's margin, the origin of its map, and all cluster and "

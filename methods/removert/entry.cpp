@@ -43,6 +43,16 @@ MethodEntry removert_entry() {
   entry.source =
       "Kim and Kim, Remove, then Revert: Static Point cloud Map Construction using "
       "Multiresolution Range Images, IROS 2020";
+  entry.bibtex = R"(@inproceedings{kim2020removert,
+  author = {Kim, Giseop and Kim, Ayoung},
+  title = {Remove, then Revert: Static Point cloud Map Construction using Multiresolution Range
+    Images},
+  booktitle = {IEEE/RSJ International Conference on Intelligent Robots and Systems (IROS)},
+  year = {2020},
+  pages = {10758--10765},
+  doi = {10.1109/IROS45743.2020.9340856}
+}
+)";
   entry.notes = {
       "Written from a description of the method; nothing of the public code is in it.",
       "The difference is signed, as in the author's later lt-mapper; the public code takes its "

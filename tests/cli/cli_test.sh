@@ -182,6 +182,18 @@ expect 2 "-o reference/results.json: is read as an input" \
   compare run reference -o reference/results.json --overwrite
 expect 2 "other_frames/results.json: is a record of a run" compare run other_frames --update
 
+# BibTeX: this program first, then each paper once.
+expect 0 "@software{raymoval" cite
+expect 0 "lim2021erasor" cite erasor:general octomap protocol:erasor
+cp out.txt cited.bib
+holds "each paper once" test "$(grep -c '^@' cited.bib)" -eq 3
+holds "a protocol of a method's name can be meant" grep -q zhang2023benchmark <("$raymoval" cite protocol:dynamicmap)
+expect 0 "@misc{raymoval2025" cite run
+holds "a run cites its protocols" grep -q "lim2021erasor" out.txt
+expect 2 "Did you mean 'octomap'" cite octmap
+holds "every method is cited or is ours" test -z \
+  "$("$raymoval" cite $("$raymoval" list methods | awk '/^[a-z_-]+ / { print $1 }' | grep -v -e ':' -e '^external$') | grep '^%')"
+
 # Scores of kept removals are those of the run.
 expect 0 "PR" score "${short[@]}" --predictions $cell/removals --json score.json
 expect 2 "--json score.json: $there" score "${short[@]}" --predictions $cell/removals --json score.json
