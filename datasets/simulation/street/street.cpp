@@ -14,7 +14,7 @@
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/settings.h"
-#include "datasets/simulation/last_values.h"
+#include "datasets/simulation/sensor/last_values.h"
 
 namespace raymoval {
 namespace {

@@ -32,8 +32,10 @@ TEST_CASE("A database that is cut at any byte is read as far as it goes", "[bags
       const auto bag = open_bag(path);
       CHECK_FALSE(bag->damage().empty());
       test::for_each_message(*bag, [&](std::size_t topic, std::size_t i) {
-        test::may_refuse(
-            [&] { CHECK_THAT(bag->message(topic, i).substr(4), Catch::StartsWith("points ")); });
+        test::may_refuse([&] {
+          const std::string text = bag->message(topic, i).substr(4);
+          CHECK((text.starts_with("points ") || text.starts_with("pose ")));
+        });
       });
     });
   }
@@ -48,7 +50,10 @@ TEST_CASE("A database whose pages contain each other does not hang", "[bags][ros
     test::may_refuse([&] {
       const auto bag = open_bag(folder.write("damaged_" + std::to_string(at) + ".db3", damaged));
       test::for_each_message(*bag, [&](std::size_t topic, std::size_t i) {
-        test::may_refuse([&] { CHECK(bag->message(topic, i).size() <= whole.size()); });
+        test::may_refuse([&] {
+          const std::string text = bag->message(topic, i);
+          CHECK(text.size() <= whole.size());
+        });
       });
     });
   }
