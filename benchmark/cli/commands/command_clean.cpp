@@ -92,7 +92,6 @@ MethodAnswer find_removals(const CleanFlags& flags, const ConfiguredMethod& meth
   MethodTask task{&sequence, &request};
   task.options.threads = flags.work.thread_count();
   task.options.with_confidence = flags.confidence;
-  task.options.loads_ahead = false;
   task.progress = &progress;
   task.cancel = &interrupt_flag();
   task.spool_beside = paths.all().front().path;
