@@ -217,19 +217,6 @@ TEST_CASE("both units are named if the points may be either", "[inspect][slow]")
   CHECK_THAT(finding->remedy, Catch::Contains("by 0.001 if") && Catch::Contains("by 0.01 if"));
 }
 
-TEST_CASE("metres are not taken for feet, however little the scans agree", "[inspect][slow]") {
-  for (const char* sensor : {"rosette", "solid-state"}) {
-    for (const char* scene : {"motorway", "walk"}) {
-      SimulationOptions options;
-      options.scene = scene;
-      options.scans = 12;
-      options.sensor = sensor;
-      INFO(scene << ", " << sensor);
-      CHECK_FALSE(found(EditedSequence(options).inspected()).contains("points-in-feet"));
-    }
-  }
-}
-
 TEST_CASE("a quaternion's order is named", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   turn_world(drive, 0.7);
@@ -240,13 +227,6 @@ TEST_CASE("a quaternion's order is named", "[inspect][slow]") {
     return pose;
   });
   check_finds(drive.inspected(), "quaternion-order", "columns");
-}
-
-TEST_CASE("points in the world frame are named", "[inspect][slow]") {
-  EditedSequence drive = good_drive();
-  drive.each_point(
-      [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });
-  check_finds(drive.inspected(), "points-in-world", "--points world");
 }
 
 TEST_CASE("poses of another sequence are named", "[inspect][slow]") {
