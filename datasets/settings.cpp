@@ -52,14 +52,14 @@ std::optional<std::string> text_value(const Fields& file, const std::string& key
   return file.has(key) ? std::optional(file.text(key)) : std::nullopt;
 }
 
-/// A text that `seconds_of_unit` can read.
-std::string time_unit_value(const std::string& text, const std::string& where) {
+/// What `read` gives, whose errors are those of a file. @param where begins them
+template <class Read>
+auto read_in_file(const std::string& where, Read&& read) {
   try {
-    (void)seconds_of_unit(text);
+    return read();
   } catch (const UsageError& error) {
     throw ConfigurationError(where + ": " + error.what());
   }
-  return text;
 }
 
 /// What a file says of poses and of the motion within scans.
@@ -68,9 +68,10 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
   if (file.has("poses")) settings.poses = file.text("poses", "");
   settings.pose_format = text_value(file, "pose_format");
   settings.T_sensor = text_value(file, "T_sensor");
-  if (file.has("point_time_unit")) {
-    settings.point_time_unit =
-        time_unit_value(file.text("point_time_unit"), file.place("point_time_unit"));
+  settings.point_time_unit = text_value(file, "point_time_unit");
+  if (settings.point_time_unit) {
+    read_in_file(file.place("point_time_unit"),
+                 [&] { return seconds_of_unit(*settings.point_time_unit); });
   }
   settings.deskew = file.flag("deskew", settings.deskew);
   if (file.has("time_offset_s")) settings.time_offset_s = file.number("time_offset_s", 0.0);
@@ -79,16 +80,6 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
     const std::string points = file.choice("points", "sensor", {"sensor", "world"});
     settings.points = parse_point_frame(file.place("points"), points);
   }
-}
-
-/// A text that `parse_point_layout` can read.
-std::string point_layout_value(const std::string& text, const std::string& where) {
-  try {
-    (void)parse_point_layout(text);
-  } catch (const UsageError& error) {
-    throw ConfigurationError(where + ": " + error.what());
-  }
-  return text;
 }
 
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
@@ -105,9 +96,10 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
     settings.drop_ego = ego_region_value(file.member("drop_ego"), file.place("drop_ego"));
   }
   apply_pose_keys(file, settings);
-  if (file.has("point_layout")) {
-    settings.point_layout =
-        point_layout_value(file.text("point_layout"), file.place("point_layout"));
+  settings.point_layout = text_value(file, "point_layout");
+  if (settings.point_layout) {
+    read_in_file(file.place("point_layout"),
+                 [&] { return parse_point_layout(*settings.point_layout); });
   }
   if (file.has("scan_period_s")) {
     settings.scan_period_s = file.number("scan_period_s", 0.0);
@@ -191,13 +183,11 @@ void apply_pose_options(const SequenceOptions& options, SequenceSettings& settin
 }  // namespace
 
 EgoRegion ego_region_value(const json& value, const std::string& where) {
-  try {
+  return read_in_file(where, [&] {
     if (value.is_number()) return parse_ego_region(number_text(value.get<double>()));
     if (!value.is_string()) throw UsageError("expected a text in quotes.");
     return parse_ego_region(value.get<std::string>());
-  } catch (const UsageError& error) {
-    throw ConfigurationError(where + ": " + error.what());
-  }
+  });
 }
 
 std::string first_pose_setting(const SequenceSettings& settings) {

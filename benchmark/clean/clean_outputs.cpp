@@ -48,19 +48,6 @@ std::string format_name(const OutputPath& output, const CleanPaths& paths,
   return paths.tiled ? "tile" + writing.tile_extension : output.path.string();
 }
 
-/// @throws UsageError if a reference system is given that no map can hold
-void check_reference_system(const std::vector<OutputPath>& outputs, const CleanPaths& paths,
-                            const CleanWriting& writing) {
-  if (!writing.crs) return;
-  const bool is_held = std::any_of(outputs.begin(), outputs.end(), [&](const OutputPath& output) {
-    return is_map(output) && holds_reference_system(format_name(output, paths, writing));
-  });
-  if (is_held) return;
-  throw UsageError("--crs " + *writing.crs +
-                   ": none of the maps that are written holds a coordinate reference system; only "
-                   ".las does. Name one with -o, or leave --crs out.");
-}
-
 /// @throws UsageError if a confidence is asked for that no output holds
 void check_confidence(const std::vector<OutputPath>& outputs, const CleanWriting& writing) {
   if (!writing.confidence || std::any_of(outputs.begin(), outputs.end(), is_map)) return;
@@ -76,7 +63,6 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
                            const std::atomic<bool>& cancel)
     : sequence_(sequence) {
   const std::vector<OutputPath> all = paths.all();
-  check_reference_system(all, paths, writing);
   check_confidence(all, writing);
   const MapPrecision precision = map_precision(*sequence.scans);
   const bool needs_rows = std::any_of(all.begin(), all.end(), [](const OutputPath& output) {
@@ -135,13 +121,7 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
   if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
   note_losses(output, name, layout);
   RecordWriting records;
-  records.crs = writing.crs;
   records.intensity_scale = writing.intensity_scale.value_or(1.0);
-  if (records.crs && !holds_reference_system(name)) {
-    notes_.push_back(output.option + ": the file does not say that it is in " + *records.crs +
-                     "; only .las does.");
-    records.crs.reset();
-  }
   std::unique_ptr<RowSink> sink;
   if (paths.tiled) {
     sink = std::make_unique<TileSink>(

@@ -19,7 +19,6 @@ struct CleanWriting {
   double voxel_size = 0.0;  ///< Metres; 0 keeps every point.
   double tile_size = 0.0;   ///< Metres; for maps that are folders of tiles.
   std::string tile_extension = ".pcd";
-  std::optional<std::string> crs = std::nullopt;         ///< See `RecordWriting`.
   std::optional<double> intensity_scale = std::nullopt;  ///< See `RecordWriting`.
   std::string method = "clean";                          ///< What pictures and pages call it.
   bool confidence = false;  ///< Whether maps have the field of `layout_with_confidence`.

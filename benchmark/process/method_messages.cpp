@@ -22,8 +22,7 @@ using nlohmann::json;
 
 // What was read of the data; the names of the scans are those of the parent.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadedData, settings, scans, labels, change)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MethodOptions, threads, with_reasons, with_confidence,
-                                   loads_ahead)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MethodOptions, threads, with_reasons, with_confidence)
 
 namespace {
 

@@ -12,10 +12,8 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
-#include "core/parallel.h"
 #include "core/scan/local_frame.h"
 #include "datasets/layouts.h"
-#include "datasets/reading/loading_ahead.h"
 #include "methods/controls/controls.h"
 
 namespace raymoval {
@@ -94,10 +92,7 @@ MethodAnswer run_remover(Remover& remover, const MethodTask& task) {
   const std::string& name = task.request->name;
   // The one frame that methods see; masks go by index, so nothing has to be turned back.
   const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
-  std::optional<LoadingAhead> ahead;
-  if (task.options.loads_ahead && hardware_threads() > 1) ahead.emplace(local);
-  const TimedSource scans(ahead ? static_cast<const ScanSource&>(*ahead) : local,
-                          online_rule(task));
+  const TimedSource scans(local, online_rule(task));
   CheckedSink sink(name, scans, MaskStore(spool_of(task, "masks")));
   StageTimes times;
   RunContext context;

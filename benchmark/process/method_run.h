@@ -24,8 +24,6 @@ struct MethodOptions {
   int threads = 1;
   bool with_reasons = false;     ///< Why it removed points.
   bool with_confidence = false;  ///< How sure it is of each point, if it has a confidence.
-  /// Whether scans are loaded before the method asks for them, if the machine has a second core.
-  bool loads_ahead = true;
 };
 
 /// One method on one sequence.

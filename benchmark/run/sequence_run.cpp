@@ -193,7 +193,6 @@ MethodTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const
   task.options.threads = scored.threads();
   task.options.with_reasons = options.keep_removals;
   task.options.with_confidence = options.confidence;
-  task.options.loads_ahead = !is_side_by_side();  // Else no core is idle.
   task.progress = scored.progress();
   task.cancel = options.cancel;
   if (options.isolate) {

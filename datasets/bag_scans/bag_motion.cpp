@@ -96,10 +96,10 @@ class TopicPosesReader {
 };
 
 /// The steps from the body that has the poses to the sensor.
-std::vector<ChainLink> body_to_sensor(const Bag& bag, const TopicPoses& poses,
-                                      const BagPoseQuery& query, BagMotion& result) {
-  const auto fixed = [](const Pose& pose) { return std::vector<ChainLink>{{{}, pose}}; };
-  if (query.T_body_sensor) return fixed(*query.T_body_sensor);
+std::vector<MotionStep> body_to_sensor(const Bag& bag, const TopicPoses& poses,
+                                       const BagPoseQuery& query, BagMotion& result) {
+  const auto fixed = [](const Pose& pose) { return std::vector<MotionStep>{{{}, pose}}; };
+  if (query.settings.T_body_sensor) return fixed(*query.settings.T_body_sensor);
   if (result.point_frame == PointFrame::kWorld || poses.child == query.cloud_frame) return {};
   if (poses.child.empty()) {
     result.notes.push_back(result.where +
@@ -140,9 +140,10 @@ BagMotion motion_of_topic(const Bag& bag, std::size_t topic, const BagPoseQuery&
                            "', which its poses are told in: they stand in the world. If they do "
                            "not, say --points sensor.");
   }
-  std::vector<ChainLink> links = body_to_sensor(bag, poses, query, result);
+  std::vector<MotionStep> links = body_to_sensor(bag, poses, query, result);
   links.insert(links.begin(), {std::move(poses.trajectory)});
-  result.motion = std::make_shared<ChainMotion>(std::move(links), query.time_offset, query.max_gap);
+  result.motion = std::make_shared<SensorMotion>(std::move(links), query.settings.time_offset,
+                                                 query.settings.max_gap);
   return result;
 }
 
@@ -159,7 +160,7 @@ BagMotion motion_of_tf(const Bag& bag, const BagPoseQuery& query) {
     throw_no_poses(bag, tree.empty() ? "No topic has odometry, poses or tf."
                                      : "tf does not know the frame of the points, " + frame + ".");
   }
-  if (query.T_body_sensor) {
+  if (query.settings.T_body_sensor) {
     throw UsageError(bag_name(bag) +
                      ": --T-sensor says where the sensor is on the body that has the poses, but "
                      "the poses are those of tf, which knows it. Leave it out, or name the poses "
@@ -176,8 +177,9 @@ BagMotion motion_of_tf(const Bag& bag, const BagPoseQuery& query) {
   result.name = "tf " + chain.back() + " -> " + query.cloud_frame;
   result.where = bag_name(bag) + ": " + result.name;
   result.point_frame = query.point_frame.value_or(PointFrame::kSensor);
-  result.motion = std::make_shared<ChainMotion>(*tree.links(chain.back(), query.cloud_frame),
-                                                query.time_offset, query.max_gap);
+  result.motion =
+      std::make_shared<SensorMotion>(*tree.links(chain.back(), query.cloud_frame),
+                                     query.settings.time_offset, query.settings.max_gap);
   result.losses = tree.losses();
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "datasets/bags/bag.h"
 #include "datasets/records/record_source.h"
+#include "datasets/trajectories/scan_poses.h"
 #include "datasets/trajectories/trajectory.h"
 
 namespace raymoval {
@@ -17,10 +18,8 @@ struct BagPoseQuery {
   std::string cloud_frame;                ///< Frame of the scans' points.
   std::uint64_t scans = 0;                ///< Messages of the topic with the scans.
   std::optional<std::string> pose_topic;  ///< The one that a user named.
-  std::optional<Pose> T_body_sensor;      ///< As a user said it.
   std::optional<PointFrame> point_frame;  ///< As a user said it.
-  Nanoseconds time_offset = 0;
-  Nanoseconds max_gap = kUsualMaxGap;
+  PoseSettings settings;
 };
 
 /// Where a bag says that the sensor was.

@@ -172,13 +172,11 @@ std::size_t scan_topic(const Bag& bag, const std::optional<std::string>& named) 
 }
 
 /// Takes the labels of the file beside the recording, if it is there.
-/// @param stamps of the scans, as their messages say them
-void find_labels(const fs::path& folder, const SequenceSettings& settings,
-                 const std::vector<Nanoseconds>& stamps, Sequence& sequence) {
+void find_labels(const fs::path& folder, const SequenceSettings& settings, Sequence& sequence) {
   const fs::path file = folder / kIndexedLabelsFile;
   if (!has_file(file)) return;
   sequence.input_files.push_back(file);
-  IndexedLabels found = read_indexed_labels(file, stamps);
+  IndexedLabels found = read_indexed_labels(file, sequence.stamps);
   sequence.labels = std::move(found.labels);
   sequence.notes.push_back(std::move(found.note));
   if (!sequence.labels) return;
@@ -226,10 +224,8 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   query.cloud_frame = frame_name(heads.frame);
   query.scans = messages;
   query.pose_topic = pose_topic;
-  if (settings.T_sensor) query.T_body_sensor = pose_settings.T_body_sensor;
   query.point_frame = settings.points;
-  query.time_offset = pose_settings.time_offset;
-  query.max_gap = pose_settings.max_gap;
+  query.settings = pose_settings;
   BagMotion motion = find_bag_motion(bag, query);
   FoundPoses looked_up = look_up_poses(heads.stamps, *motion.motion, motion.where);
   FoundScanPoses found;
@@ -270,13 +266,11 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
           ? poses_of_file(heads, bag->topics()[topic], settings, folder, pose_settings, sequence)
           : poses_of_bag(*bag, heads, messages, settings, options.pose_topic, pose_settings);
   std::vector<BagScan> scans;
-  std::vector<Nanoseconds> stamps;
   for (std::size_t i = 0; i < heads.messages.size(); ++i) {
     if (!found.poses.poses[i]) continue;
     scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
                      *found.poses.poses[i], heads.layouts[i]});
     sequence.stamps.push_back(found.poses.stamps[i]);
-    stamps.push_back(heads.stamps[i]);
   }
   sequence.poses_file = found.name;
   sequence.motion = found.poses.motion;
@@ -287,7 +281,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   take(sequence.notes, std::move(found.poses.notes));
   sequence.losses = heads.losses;
   take(sequence.losses, std::move(found.poses.losses));
-  find_labels(folder, settings, stamps, sequence);
+  find_labels(folder, settings, sequence);
   const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
                                                       found.point_frame, settings.sensor);
   sequence.scans = source;

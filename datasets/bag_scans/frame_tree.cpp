@@ -7,31 +7,9 @@
 #include "core/files/file_kind.h"
 #include "core/text.h"
 #include "datasets/bag_scans/topics.h"
+#include "datasets/bags/bag_index.h"
 
 namespace raymoval {
-
-std::optional<Pose> ChainMotion::at(Nanoseconds stamp) const {
-  Pose T_world_sensor = Pose::Identity();
-  for (const ChainLink& link : links_) {
-    const std::optional<Pose> step =
-        link.fixed ? link.fixed : link.moving.at(stamp + time_offset_, max_gap_);
-    if (!step) return std::nullopt;
-    T_world_sensor = T_world_sensor * (link.inverse ? step->inverse() : *step);
-  }
-  return T_world_sensor;
-}
-
-std::pair<Nanoseconds, Nanoseconds> ChainMotion::span() const {
-  // Without a moving step it is known at any time that a clock has.
-  constexpr Nanoseconds kAnyTime = Nanoseconds{1} << 61;
-  std::pair<Nanoseconds, Nanoseconds> span{-kAnyTime, kAnyTime};
-  for (const ChainLink& link : links_) {
-    if (link.fixed) continue;
-    span.first = std::max(span.first, link.moving.poses().front().stamp - time_offset_);
-    span.second = std::min(span.second, link.moving.poses().back().stamp - time_offset_);
-  }
-  return span;
-}
 
 Trajectory ordered_trajectory(std::vector<StampedPose> poses) {
   std::stable_sort(poses.begin(), poses.end(),
@@ -68,15 +46,14 @@ void for_each_pose_message(
   const BagTopic& of = bag.topics()[topic];
   for (std::size_t i = 0; i < of.messages; ++i) {
     std::vector<PoseMessage> poses;
-    try {
+    const std::string damage = damage_in([&] {
       poses = read_poses(bag.message(topic, i), of.type, of.encoding, message_place(bag, topic, i));
-    } catch (const UnreadableError&) {
-      throw;
-    } catch (const DataError& error) {
-      skipped.add(error.what());
-      continue;
+    });
+    if (damage.empty()) {
+      call(i, std::move(poses));
+    } else {
+      skipped.add(damage);
     }
-    call(i, std::move(poses));
   }
 }
 
@@ -136,8 +113,8 @@ std::vector<std::string> FrameTree::chain(const std::string& frame) const {
   return frames;
 }
 
-std::optional<std::vector<ChainLink>> FrameTree::links(const std::string& from,
-                                                       const std::string& to) const {
+std::optional<std::vector<MotionStep>> FrameTree::links(const std::string& from,
+                                                        const std::string& to) const {
   std::vector<std::string> down = chain(to), up = chain(from);
   if (down.back() != up.back()) return std::nullopt;
   // What is above both is left out.
@@ -147,11 +124,11 @@ std::optional<std::vector<ChainLink>> FrameTree::links(const std::string& from,
   }
   down.pop_back();
   up.pop_back();
-  std::map<std::string, ChainLink> found;
+  std::map<std::string, MotionStep> found;
   for (const std::string& frame : up) found[frame].inverse = true;
   for (const std::string& frame : down) found[frame].inverse = false;
   read_links(found);
-  std::vector<ChainLink> links;
+  std::vector<MotionStep> links;
   for (const std::string& frame : up) links.push_back(std::move(found[frame]));
   for (auto frame = down.rbegin(); frame != down.rend(); ++frame) {
     links.push_back(std::move(found[*frame]));
@@ -160,7 +137,7 @@ std::optional<std::vector<ChainLink>> FrameTree::links(const std::string& from,
 }
 
 /// Fills in the transforms of the frames in `links`.
-void FrameTree::read_links(std::map<std::string, ChainLink>& links) const {
+void FrameTree::read_links(std::map<std::string, MotionStep>& links) const {
   std::map<std::string, std::vector<StampedPose>> moving;
   const std::string where = bag_name(bag_) + ": tf";
   for (auto& [frame, link] : links) {

@@ -15,29 +15,6 @@
 
 namespace raymoval {
 
-/// A step from frame to frame: a fixed transform, or one over time.
-struct ChainLink {
-  Trajectory moving;                         ///< Used if the step is not fixed.
-  std::optional<Pose> fixed = std::nullopt;  ///< At all times.
-  bool inverse = false;                      ///< Whether the step goes the other way.
-};
-
-/// The motion of a sensor along a chain of frames, from the world to the sensor. Each step is
-/// interpolated on its own, for their times differ.
-class ChainMotion : public SensorMotion {
- public:
-  ChainMotion(std::vector<ChainLink> links, Nanoseconds time_offset, Nanoseconds max_gap)
-      : links_(std::move(links)), time_offset_(time_offset), max_gap_(max_gap) {}
-  [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp) const override;
-  /// The time in which all steps are known.
-  [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> span() const override;
-  [[nodiscard]] Nanoseconds time_offset() const override { return time_offset_; }
-
- private:
-  std::vector<ChainLink> links_;
-  Nanoseconds time_offset_, max_gap_;
-};
-
 /// A trajectory of poses in any order. Of several with one stamp the last is taken, as receivers of
 /// transforms do.
 Trajectory ordered_trajectory(std::vector<StampedPose> poses);
@@ -81,8 +58,8 @@ class FrameTree {
   /// that it takes. Nothing if no chain of frames connects them.
   /// @throws DataError as `chain`, and if a fixed transform, or all of one over time, are no rigid
   /// motion
-  [[nodiscard]] std::optional<std::vector<ChainLink>> links(const std::string& from,
-                                                            const std::string& to) const;
+  [[nodiscard]] std::optional<std::vector<MotionStep>> links(const std::string& from,
+                                                             const std::string& to) const;
   /// Sentences on messages that could not be used.
   [[nodiscard]] std::vector<std::string> losses() const;
 
@@ -93,7 +70,7 @@ class FrameTree {
     PoseMessage last;
   };
   void add(const PoseMessage& pose, bool dynamic);
-  void read_links(std::map<std::string, ChainLink>& links) const;
+  void read_links(std::map<std::string, MotionStep>& links) const;
 
   const Bag& bag_;
   std::vector<std::size_t> topics_;

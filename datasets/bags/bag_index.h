@@ -10,9 +10,25 @@
 #include <tuple>
 #include <vector>
 
+#include "core/error.h"
+#include "core/files/file_kind.h"
 #include "datasets/bags/bag.h"
 
 namespace raymoval {
+
+/// Calls `read`. @return what DataError says that it throws; empty if it throws none
+/// @throws UnreadableError, which is no damage; whatever else `read` throws
+template <class Read>
+std::string damage_in(Read&& read) {
+  try {
+    read();
+  } catch (const UnreadableError&) {
+    throw;
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return {};
+}
 
 /// Sentences on what of a recording could not be read. The first few are kept and the rest are
 /// counted, so that a file with damage everywhere fills no memory. All calls are thread-safe.

@@ -207,14 +207,10 @@ Unpacked unpack_zstd(std::string_view packed, std::uint64_t stated, const std::s
   Unpacker unpacker;
   unpacked.problem =
       unpacker.add(packed, stated, [&](std::string_view piece) { unpacked.bytes += piece; });
-  if (unpacker.made() > stated) {
-    unpacked.problem =
-        "it unpacks to more than the " + grouped_text(stated) + " bytes that it is said to have";
-  }
+  if (unpacker.made() > stated) unpacked.problem = too_much(stated);
   if (unpacked.problem.empty()) unpacked.problem = unpacker.end();
   if (unpacked.problem.empty() && unpacker.made() < stated) {
-    unpacked.problem = "it unpacks to " + grouped_text(unpacker.made()) + " of the " +
-                       grouped_text(stated) + " bytes that it is said to have";
+    unpacked.problem = too_little(unpacker.made(), stated);
   }
   return unpacked;
 }

@@ -115,16 +115,6 @@ const CloudFormat& format_written(const std::filesystem::path& path) {
   throw_unknown(path, written_extensions());
 }
 
-std::unique_ptr<RecordEncoder> encoder_for(const std::filesystem::path& path,
-                                           const RecordWriting& writing) {
-  const CloudFormat& format = format_written(path);
-  if (writing.crs && !format.holds_reference_system) {
-    throw UsageError(path.string() + ": '" + format.extension +
-                     "' holds no coordinate reference system; only .las does.");
-  }
-  return format.encoder(path, writing);
-}
-
 }  // namespace
 
 Cloud read_cloud(const std::filesystem::path& path, const Eigen::Vector3d& origin,
@@ -160,10 +150,6 @@ std::vector<std::string> what_is_lost(const std::filesystem::path& path,
   return format_written(path).lost(layout);
 }
 
-bool holds_reference_system(const std::filesystem::path& path) {
-  return format_written(path).holds_reference_system;
-}
-
 std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
                                               const RecordLayout& layout) {
   const CloudFormat& format = format_written(path);
@@ -180,7 +166,7 @@ void check_coordinates(const std::filesystem::path& path, Coordinates coordinate
 
 std::string whole_file(const std::filesystem::path& path, const PointRecords& records) {
   (void)position_fields(records.layout, path.string());
-  const auto encoder = encoder_for(path, {});
+  const auto encoder = format_written(path).encoder(path, {});
   encoder->start(records);
   const std::string body = encoder->rows(records);
   return encoder->head(records.size()) + body;
@@ -188,7 +174,7 @@ std::string whole_file(const std::filesystem::path& path, const PointRecords& re
 
 PointRecordWriter::PointRecordWriter(const std::filesystem::path& path,
                                      const RecordWriting& writing)
-    : encoder_(encoder_for(path, writing)), file_(path) {}
+    : encoder_(format_written(path).encoder(path, writing)), file_(path) {}
 
 void PointRecordWriter::start(const RecordLayout& layout) {
   (void)position_fields(layout, file_.path().string());

@@ -81,10 +81,6 @@ RecordLayout read_layout(const std::filesystem::path& path, const RecordReading&
 std::vector<std::string> what_is_lost(const std::filesystem::path& path,
                                       const RecordLayout& layout);
 
-/// Whether files of the format of `path` say which coordinate reference system they are in.
-/// @throws UsageError for an unknown extension
-bool holds_reference_system(const std::filesystem::path& path);
-
 /// The field of `layout` that files of the format of `path` also show rounded, times
 /// `RecordWriting::intensity_scale`. Nothing if there is none. @throws UsageError for an unknown
 /// extension
@@ -106,8 +102,7 @@ void check_coordinates(const std::filesystem::path& path, Coordinates coordinate
 /// format is that of the extension. The file appears at `commit`, whole.
 class PointRecordWriter {
  public:
-  /// Opens the file. @throws UsageError for an unknown extension or a `crs` that the format cannot
-  ///   hold, DataError if it cannot be written
+  /// Opens the file. @throws UsageError for an unknown extension, DataError if it cannot be written
   explicit PointRecordWriter(const std::filesystem::path& path, const RecordWriting& writing = {});
 
   /// To be called once before `add`, with the layout that all pieces have.

@@ -7,8 +7,8 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/format/field_names.h"
-#include "datasets/clouds/format/header_points.h"
 
 // PCL's own readers are not used. They trust counts in a header (a damaged file ends the program),
 // read garbage in ASCII files as zero, and report on the console; and the library loads VTK, which

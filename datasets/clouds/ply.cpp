@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/format/field_names.h"
-#include "datasets/clouds/format/header_points.h"
 
 namespace raymoval {
 namespace {

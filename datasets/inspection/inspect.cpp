@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/inspection/inspect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/files/file_kind.h"
+#include "core/files/files.h"
+#include "core/files/same_file.h"
+#include "core/text.h"
 #include "datasets/bag_scans/bag_source.h"
 #include "datasets/bag_scans/topics.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/format/cloud_header.h"
+#include "datasets/clouds/frames.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/evidence/pair_fit.h"
-#include "datasets/inspection/unopenable.h"
+#include "datasets/layouts.h"
+#include "datasets/settings.h"
+#include "datasets/trajectories/pose_file.h"
 
 namespace raymoval {
 
@@ -44,7 +54,6 @@ const std::vector<InspectionCheck>& inspection_checks() {
 
 InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* cancel) {
   inspection::Samples samples(sequence, cancel);
-  inspection::settle_point_unit(samples);
   InspectionReport report;
   report.sequence = sequence.name;
   report.layout = sequence.layout;
@@ -66,11 +75,102 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
   return report;
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pose files of `folder` whose count would fit.
+std::vector<std::string> fitting_files(const fs::path& folder, std::size_t least,
+                                       std::size_t most) {
+  std::vector<std::string> names;
+  for (const auto& path : list_files(folder, {".txt"})) {
+    try {
+      const std::size_t rows = read_pose_file(path).rows.size();
+      if (rows >= least && rows <= most) names.push_back(path.filename().string());
+    } catch (const UnreadableError&) {
+      throw;
+    } catch (const Error&) {
+      continue;  // Not a pose file.
+    }
+  }
+  return names;
+}
+
+Finding count_finding(const fs::path& poses, std::size_t rows, const fs::path& folder,
+                      std::size_t least, std::size_t most) {
+  const auto others = fitting_files(folder, least, most);
+  return {.check = "poses-of-another-sequence",
+          .where = poses.filename().string(),
+          .what = "holds " + counted_text(rows, "pose") + " for " + counted_text(least, "scan"),
+          .expected = "one pose a scan",
+          .remedy =
+              others.empty()
+                  ? "Take the pose file that belongs to these scans (--poses FILE)."
+                  : fmt::format("The count of {} fits: --poses {}.", join(others), others.front())};
+}
+
+/// Compares the count of poses with that of the scans.
+std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
+                                 const SequenceOptions& options) {
+  const auto settings = read_settings(folder, options, {});
+  if (settings.poses == kStandingSensor) return {};
+  const auto path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
+  const PoseFile file = read_pose_file(path, {settings.pose_format});
+  // Poses that go by time, and one pose for all scans, may be of any number.
+  if (file.stamped() || file.rows.size() == 1) return {};
+  const std::size_t rows = file.rows.size();
+  std::size_t least = 0, most = SIZE_MAX;
+  if (layout.pose_place == PosePlace::kRowOfFrameNumber) {
+    const auto files = list_numbered_files(folder / layout.scan_folder, ".bin");
+    least = static_cast<std::size_t>(files.back().number) + 1;
+  } else {
+    const auto files = list_files(folder / layout.scan_folder, cloud_extensions());
+    // Poses may stand in an array or a cloud, which is no scan.
+    least = most = static_cast<std::size_t>(
+        std::count_if(files.begin(), files.end(),
+                      [&](const fs::path& scan) { return !is_same_file(scan, path); }));
+  }
+  if (least == 0 || (rows >= least && rows <= most)) return {};
+  return {count_finding(path, rows, folder, least, most)};
+}
+
+/// Looks for a scan file that lacks its pose.
+std::vector<Finding> check_viewpoints(const fs::path& folder, const Layout& layout) {
+  constexpr std::size_t kHead = 65536;
+  for (const auto& path : list_files(folder / layout.scan_folder, {".pcd"})) {
+    if (parse_pcd_header(read_piece(path, 0, kHead), path).viewpoint) continue;
+    return {{.check = "viewpoint-missing",
+             .where = layout.scan_folder + "/" + path.filename().string(),
+             .what = "the header has no VIEWPOINT",
+             .expected = "VIEWPOINT tx ty tz qw qx qy qz, the pose of the sensor",
+             .remedy = "Add the line, with points in the world frame; or put the scans (in the "
+                       "sensor frame) beside a pose file."}};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Finding> unopenable_findings(const std::string& path, const SequenceOptions& options) {
+  try {
+    const Layout* layout = recognised_layout(path);
+    if (layout == nullptr || layout->pose_place == PosePlace::kOther) return {};
+    const fs::path folder = layout->folder_of ? layout->folder_of(path) : fs::path(path);
+    if (!is_folder(folder)) return {};
+    if (layout->pose_place == PosePlace::kScanFile) return check_viewpoints(folder, *layout);
+    return check_count(folder, *layout, options);
+  } catch (const UnreadableError&) {
+    throw;  // Neither damaged nor absent.
+  } catch (const Error&) {
+    return {};  // Whoever opens the sequence says what is wrong.
+  }
+}
+
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
                               const OpenContext& context) {
   InspectionReport report;
   report.sequence = std::filesystem::path(path).filename().string();
-  report.findings = inspection::unopenable_findings(path, options);
+  report.findings = unopenable_findings(path, options);
   if (!report.findings.empty()) return report;
   return inspect(open_sequence(path, options, context), context.cancel);
 }

@@ -22,6 +22,9 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
                               const OpenContext& context = {});
 
+/// Those findings of `inspect_path` that keep the sequence at `path` from being opened.
+std::vector<Finding> unopenable_findings(const std::string& path, const SequenceOptions& options);
+
 /// All that `inspect` looks for, in the order in which it is looked for and reported.
 using InspectionCheck = inspection::Check;
 const std::vector<InspectionCheck>& inspection_checks();

@@ -11,68 +11,40 @@ namespace {
 
 constexpr double kUnit = 1e-3;  // What a quaternion's length may deviate by.
 
-/// The columns of a format with the count of words that `text` has.
-using ColumnsOf = std::function<std::optional<PoseColumns>(std::size_t count)>;
-
-std::optional<PoseColumns> kitti_columns(std::size_t count) {
-  if (count != 12 && count != 13) return std::nullopt;
+/// Columns of a matrix behind a time, or alone.
+PoseColumns matrix_columns(Rotation rotation, std::size_t numbers, bool has_time) {
   PoseColumns columns;
-  columns.count = count;
-  columns.rotation = Rotation::kMatrix3x4;
-  columns.matrix = count - 12;
-  if (count == 13) columns.time = 0;
+  columns.rotation = rotation;
+  columns.matrix = has_time ? 1 : 0;
+  columns.count = numbers + columns.matrix;
+  if (has_time) columns.time = 0;
   return columns;
 }
 
-std::optional<PoseColumns> matrix_columns(std::size_t count) {
-  if (count != 16 && count != 17) return std::nullopt;
+/// Columns of a position and a quaternion, or another rotation.
+PoseColumns turn_columns(std::size_t count, std::optional<std::size_t> time,
+                         const std::array<std::size_t, 3>& position,
+                         const std::array<std::size_t, 4>& turn) {
   PoseColumns columns;
   columns.count = count;
-  columns.rotation = Rotation::kMatrix4x4;
-  columns.matrix = count - 16;
-  if (count == 17) columns.time = 0;
+  columns.time = time;
+  columns.position = position;
+  columns.turn = turn;
   return columns;
 }
 
-std::optional<PoseColumns> tum_columns(std::size_t count) {
-  if (count != 8) return std::nullopt;
-  PoseColumns columns;
-  columns.count = count;
-  columns.time = 0;
-  columns.position = {1, 2, 3};
-  columns.turn = {4, 5, 6, 7};
-  return columns;
-}
-
-std::optional<PoseColumns> euroc_columns(std::size_t count) {
-  if (count != 8 && count != 17) return std::nullopt;
-  PoseColumns columns;
-  columns.count = count;
-  columns.time = 0;
-  columns.position = {1, 2, 3};
-  columns.turn = {5, 6, 7, 4};
-  return columns;
-}
-
-std::optional<PoseColumns> fast_lio_columns(std::size_t count) {
-  if (count != 25) return std::nullopt;
-  PoseColumns columns;
-  columns.count = count;
+PoseColumns fast_lio_columns() {
+  PoseColumns columns = turn_columns(25, 0, {4, 5, 6}, {1, 2, 3, 3});
   columns.rotation = Rotation::kVector;
-  columns.time = 0;
   columns.unit = TimeUnit::kSeconds;
-  columns.turn = {1, 2, 3, 3};
-  columns.position = {4, 5, 6};
   return columns;
 }
 
-std::optional<PoseColumns> hba_columns(std::size_t count) {
-  if (count != 7) return std::nullopt;
-  PoseColumns columns;
-  columns.count = count;
-  columns.position = {0, 1, 2};
-  columns.turn = {4, 5, 6, 3};
-  return columns;
+/// Those of `all` that have `count` words; null if there are none.
+const PoseColumns* columns_of(const std::vector<PoseColumns>& all, std::size_t count) {
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const PoseColumns& one) { return one.count == count; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 std::vector<double> first_numbers(const PoseText& text) {
@@ -160,24 +132,25 @@ Match match_hba(const PoseText& text) {
                   ".");
 }
 
-TextFormat fixed(PoseFormatName name, const ColumnsOf& columns_of,
+/// @param columns for each count of words that the format may have in a row
+TextFormat fixed(const PoseFormatName& name, const std::vector<PoseColumns>& columns,
                  std::function<Match(const PoseText&)> match = nullptr) {
   if (!match) {
-    match = [columns_of](const PoseText& text) {
-      return columns_of(text.first().words.size()) ? Match::kYes : Match::kNo;
+    match = [columns](const PoseText& text) {
+      return columns_of(columns, text.first().words.size()) != nullptr ? Match::kYes : Match::kNo;
     };
   }
-  const auto read = [name, columns_of](const PoseText& text) {
-    const auto columns = columns_of(text.first().words.size());
-    if (!columns) throw_count(text, name);
-    return read_columns(text, *columns);
+  const auto read = [name, columns](const PoseText& text) {
+    const PoseColumns* fitting = columns_of(columns, text.first().words.size());
+    if (fitting == nullptr) throw_count(text, name);
+    return read_columns(text, *fitting);
   };
   return {name, match, read};
 }
 
 /// Matrices in blocks of four lines with four numbers each.
 PoseFile read_blocks(const PoseText& text) {
-  PoseColumns columns = *matrix_columns(16);
+  const PoseColumns columns = matrix_columns(Rotation::kMatrix4x4, 16, false);
   PoseFile file;
   file.path = text.path();
   std::vector<double> numbers;
@@ -192,10 +165,7 @@ PoseFile read_blocks(const PoseText& text) {
     last_line = row.line;
     numbers.insert(numbers.end(), part.begin(), part.end());
     if (numbers.size() < 16) return;
-    PoseFile::Row pose;
-    pose.line = line;
-    pose.matrix = pose_matrix(numbers, columns, text.place(row.line));
-    file.rows.push_back(pose);
+    file.rows.push_back({pose_matrix(numbers, columns, text.place(row.line)), line, std::nullopt});
     numbers.clear();
   });
   if (!numbers.empty()) {
@@ -204,14 +174,6 @@ PoseFile read_blocks(const PoseText& text) {
                     "four lines with four numbers each.");
   }
   return file;
-}
-
-PoseFile read_matrix(const PoseText& text, const PoseFormatName& name) {
-  const std::size_t count = text.first().words.size();
-  if (count == 4) return read_blocks(text);
-  const auto columns = matrix_columns(count);
-  if (!columns) throw_count(text, name);
-  return read_columns(text, *columns);
 }
 
 /// CT-ICP writes the time of the reference and the first number of the quaternion without a blank
@@ -256,10 +218,7 @@ PoseFile read_ct_icp(const PoseText& text, const PoseFormatName& name) {
     std::vector<double> numbers(10, 0.0);
     for (std::size_t i = 4; i < 10; ++i) numbers[i] = text.number(row, i + skipped);
     numbers[3] = count == 22 ? text.number(row, 4) : cut_quaternion(text, row, 3);
-    PoseFile::Row pose;
-    pose.line = row.line;
-    pose.matrix = pose_matrix(numbers, columns, where);
-    file.rows.push_back(pose);
+    file.rows.push_back({pose_matrix(numbers, columns, where), row.line, std::nullopt});
     times.push_back(row.words[1]);
   });
   set_stamps(file, times, {}, std::nullopt);
@@ -279,10 +238,18 @@ TextFormat ct_icp() {
   return {name, match, [name](const PoseText& text) { return read_ct_icp(text, name); }};
 }
 
+/// A file of matrices in blocks, or in rows as those of other formats.
 TextFormat matrix() {
-  const PoseFormatName name = {
-      "matrix", "4 x 4 matrices: 16 numbers a row, blocks of four lines, or a time and 16 numbers"};
-  return {name, match_matrix, [name](const PoseText& text) { return read_matrix(text, name); }};
+  TextFormat rows =
+      fixed({"matrix",
+             "4 x 4 matrices: 16 numbers a row, blocks of four lines, or a time and 16 numbers"},
+            {matrix_columns(Rotation::kMatrix4x4, 16, false),
+             matrix_columns(Rotation::kMatrix4x4, 16, true)},
+            match_matrix);
+  rows.read = [read_rows = rows.read](const PoseText& text) {
+    return text.first().words.size() == 4 ? read_blocks(text) : read_rows(text);
+  };
+  return rows;
 }
 
 }  // namespace
@@ -293,22 +260,25 @@ std::vector<TextFormat> column_formats() {
           {"kitti",
            "12 numbers a row, a 3 x 4 matrix row by row (KITTI, KISS-ICP's _kitti.txt), or a time "
            "and 12 numbers (MulRan)"},
-          kitti_columns),
+          {matrix_columns(Rotation::kMatrix3x4, 12, false),
+           matrix_columns(Rotation::kMatrix3x4, 12, true)}),
       matrix(),
       fixed({"tum",
              "8 numbers a row, t x y z qx qy qz qw (GLIM's traj_lidar.txt, KISS-ICP's _tum.txt, "
              "evo)"},
-            tum_columns, match_tum),
+            {turn_columns(8, 0, {1, 2, 3}, {4, 5, 6, 7})}, match_tum),
       fixed({"euroc",
              "8 or 17 numbers a row between commas, nanoseconds x y z qw qx qy qz ... (EuRoC)"},
-            euroc_columns, match_euroc),
+            {turn_columns(8, 0, {1, 2, 3}, {5, 6, 7, 4}),
+             turn_columns(17, 0, {1, 2, 3}, {5, 6, 7, 4})},
+            match_euroc),
       fixed({"fast-lio",
              "25 numbers a row, seconds since the first scan, rotation vector, position ... "
              "(FAST-LIO's pos_log.txt)"},
-            fast_lio_columns),
+            {fast_lio_columns()}),
       ct_icp(),
       fixed({"hba", "7 numbers a row, x y z qw qx qy qz, without a time (pose.json of HBA, BALM)"},
-            hba_columns, match_hba),
+            {turn_columns(7, std::nullopt, {0, 1, 2}, {4, 5, 6, 3})}, match_hba),
   };
 }
 

@@ -48,24 +48,13 @@ bool PoseText::is_blank_or_comment(std::string_view line) {
   return first == std::string_view::npos || begins_comment(line[first]);
 }
 
-void PoseText::split_words(std::string_view line, std::vector<std::string_view>& words) const {
-  words.clear();
-  if (separator_ == ' ') {
-    for (std::size_t at = 0; at < line.size();) {
-      const std::size_t first = line.find_first_not_of(kBlanks, at);
-      if (first == std::string_view::npos) return;
-      at = std::min(line.find_first_of(kBlanks, first), line.size());
-      words.push_back(line.substr(first, at - first));
-    }
-    return;
-  }
+std::vector<std::string_view> PoseText::split_words(std::string_view line) const {
+  if (separator_ == ' ') return split_blanks(line);
   line = without_blanks(line);
   if (line.ends_with(separator_)) line.remove_suffix(1);
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(separator_, at), line.size());
-    words.push_back(without_blanks(line.substr(at, end - at)));
-    at = end + 1;
-  }
+  std::vector<std::string_view> words = split(line, separator_);
+  for (std::string_view& word : words) word = without_blanks(word);
+  return words;
 }
 
 void PoseText::look_at_head() {
@@ -82,7 +71,7 @@ void PoseText::look_at_head() {
       continue;
     }
     separator_ = separator_of(line);
-    split_words(line, first_.words);
+    first_.words = split_words(line);
     const bool is_header = names_.empty() && first_.words.size() > 2 &&
                            std::all_of(first_.words.begin(), first_.words.end(), has_letter) &&
                            !parse_number<double>(first_.words.front());
@@ -93,7 +82,7 @@ void PoseText::look_at_head() {
     }
     first_.line = number;
     first_.text = line;
-    if (header_line_ == 0 && !comment.empty()) split_words(comment, names_);
+    if (header_line_ == 0 && !comment.empty()) names_ = split_words(comment);
     return;
   }
   first_ = {};
@@ -241,10 +230,8 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
                       std::to_string(columns.count) +
                       " as in the rows above; the row looks cut or doubled.");
     }
-    PoseFile::Row pose;
-    pose.line = row.line;
-    pose.matrix = pose_matrix(used_numbers(text, row, columns), columns, where);
-    file.rows.push_back(pose);
+    file.rows.push_back(
+        {pose_matrix(used_numbers(text, row, columns), columns, where), row.line, std::nullopt});
     if (columns.time) times.push_back(row.words[*columns.time]);
     if (columns.nanoseconds) nanoseconds.push_back(row.words[*columns.nanoseconds]);
   });

@@ -54,7 +54,7 @@ class PoseText {
       at = end + 1;
       row.line = ++number;
       if (number == header_line_ || is_blank_or_comment(row.text)) continue;
-      split_words(row.text, row.words);
+      row.words = split_words(row.text);
       visit(row);
     }
   }
@@ -67,7 +67,7 @@ class PoseText {
 
  private:
   static bool is_blank_or_comment(std::string_view line);
-  void split_words(std::string_view line, std::vector<std::string_view>& words) const;
+  [[nodiscard]] std::vector<std::string_view> split_words(std::string_view line) const;
   void look_at_head();
 
   std::filesystem::path path_;

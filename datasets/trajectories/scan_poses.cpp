@@ -46,17 +46,16 @@ void refuse_offset(const PoseSettings& settings, const std::string& why) {
 ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
   ScanPoses result;
   result.stamps = scans.stamps;
-  BodyMotion body;
-  body.time_offset = settings.time_offset;
-  body.max_gap = settings.max_gap;
-  // What goes along a straight line from pose to pose is the body, not a sensor beside its middle.
-  body.T_body_sensor = mounting(settings);
   std::vector<StampedPose> poses;
   for (std::size_t i = 0; i < file.rows.size(); ++i) {
     poses.push_back({*file.rows[i].stamp, body_pose(rigid_pose(file, i), settings)});
   }
-  body.trajectory = Trajectory(std::move(poses));
-  result.motion = std::make_shared<TrajectoryMotion>(std::move(body));
+  // What goes along a straight line from pose to pose is the body, not a sensor beside its middle.
+  std::vector<MotionStep> steps(2);
+  steps[0].moving = Trajectory(std::move(poses));
+  steps[1].fixed = mounting(settings);
+  result.motion =
+      std::make_shared<SensorMotion>(std::move(steps), settings.time_offset, settings.max_gap);
   FoundPoses found = look_up_poses(scans.stamps, *result.motion, file.path.string());
   result.poses = std::move(found.poses);
   result.losses = std::move(found.losses);
@@ -106,17 +105,16 @@ ScanPoses one_for_all(const Pose& pose, const ScanKeys& scans) {
 
 std::shared_ptr<const SensorMotion> motion_along(const std::vector<Nanoseconds>& stamps,
                                                  const std::vector<std::optional<Pose>>& poses) {
-  BodyMotion body;
-  body.max_gap = std::numeric_limits<Nanoseconds>::max();
-  body.follows_scans = true;
   std::vector<StampedPose> stamped;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const bool later = stamped.empty() || stamps[i] > stamped.back().stamp;
     if (poses[i] && later) stamped.push_back({stamps[i], *poses[i]});
   }
   if (stamped.empty()) return nullptr;
-  body.trajectory = Trajectory(std::move(stamped));
-  return std::make_shared<TrajectoryMotion>(std::move(body));
+  std::vector<MotionStep> steps(1);
+  steps[0].moving = Trajectory(std::move(stamped));
+  return std::make_shared<SensorMotion>(std::move(steps), 0,
+                                        std::numeric_limits<Nanoseconds>::max(), true);
 }
 
 void ScanKeys::add(std::size_t row, const StampColumn& times, double period_s) {

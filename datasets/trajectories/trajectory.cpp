@@ -114,19 +114,28 @@ std::string remedy(const std::vector<Nanoseconds>& stamps, const SensorMotion& m
 
 }  // namespace
 
-TrajectoryMotion::TrajectoryMotion(BodyMotion body) : body_(std::move(body)) {
-  if (body_.trajectory.empty()) throw InternalError("a motion without a pose");
+std::optional<Pose> SensorMotion::at(Nanoseconds stamp) const {
+  std::optional<Pose> T_world_sensor;
+  for (const MotionStep& link : steps_) {
+    std::optional<Pose> step =
+        link.fixed ? link.fixed : link.moving.at(stamp + time_offset_, max_gap_);
+    if (!step) return std::nullopt;
+    if (link.inverse) step = step->inverse();
+    T_world_sensor = T_world_sensor ? *T_world_sensor * *step : *step;
+  }
+  return T_world_sensor;
 }
 
-std::optional<Pose> TrajectoryMotion::at(Nanoseconds stamp) const {
-  auto pose = body_.trajectory.at(stamp + body_.time_offset, body_.max_gap);
-  if (!pose) return std::nullopt;
-  return *pose * body_.T_body_sensor;
-}
-
-std::pair<Nanoseconds, Nanoseconds> TrajectoryMotion::span() const {
-  const std::vector<StampedPose>& poses = body_.trajectory.poses();
-  return {poses.front().stamp - body_.time_offset, poses.back().stamp - body_.time_offset};
+std::pair<Nanoseconds, Nanoseconds> SensorMotion::span() const {
+  // Without a moving step it is known at any time that a clock has.
+  constexpr Nanoseconds kAnyTime = Nanoseconds{1} << 61;
+  std::pair<Nanoseconds, Nanoseconds> span{-kAnyTime, kAnyTime};
+  for (const MotionStep& link : steps_) {
+    if (link.fixed) continue;
+    span.first = std::max(span.first, link.moving.poses().front().stamp - time_offset_);
+    span.second = std::min(span.second, link.moving.poses().back().stamp - time_offset_);
+  }
+  return span;
 }
 
 FoundPoses look_up_poses(const std::vector<Nanoseconds>& stamps, const SensorMotion& motion,

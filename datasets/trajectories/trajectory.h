@@ -68,42 +68,40 @@ Pose interpolated(const Pose& a, const Pose& b, double t);
 /// Poses that are further apart in time are not interpolated, unless a user says otherwise.
 inline constexpr Nanoseconds kUsualMaxGap = 1'000'000'000;
 
-/// Where a sensor was over time, on the clock of its scans. All calls are thread-safe.
+/// A step from frame to frame: a fixed transform, or one over time.
+struct MotionStep {
+  Trajectory moving = {};                    ///< Used if the step is not fixed.
+  std::optional<Pose> fixed = std::nullopt;  ///< At all times.
+  bool inverse = false;                      ///< Whether the step goes the other way.
+};
+
+/// Where a sensor was over time, on the clock of its scans: the product of steps from the world to
+/// the sensor, such as a body's trajectory and the place of the sensor on the body. Each step is
+/// interpolated on its own, for their times differ. All calls are thread-safe.
 class SensorMotion {
  public:
-  virtual ~SensorMotion() = default;
+  /// @param time_offset what is added to the times of scans to get those of the poses
+  /// @param max_gap poses further apart are not interpolated
+  /// @param follows_scans whether the poses are just those of the scans, by their order: at the
+  ///   times of the scans, which perhaps nobody knows
+  explicit SensorMotion(std::vector<MotionStep> steps, Nanoseconds time_offset = 0,
+                        Nanoseconds max_gap = kUsualMaxGap, bool follows_scans = false)
+      : steps_(std::move(steps)),
+        time_offset_(time_offset),
+        max_gap_(max_gap),
+        follows_scans_(follows_scans) {}
+
   /// T_world_sensor at `stamp`. Nothing before the first pose, after the last one, and in gaps.
-  [[nodiscard]] virtual std::optional<Pose> at(Nanoseconds stamp) const = 0;
-  /// The times of the first and the last pose, on the clock of the scans.
-  [[nodiscard]] virtual std::pair<Nanoseconds, Nanoseconds> span() const = 0;
-  /// What is added to the times of scans to get those of the poses.
-  [[nodiscard]] virtual Nanoseconds time_offset() const { return 0; }
-  /// Whether its poses are just those of the scans, by their order: at the times of the scans,
-  /// which perhaps nobody knows.
-  [[nodiscard]] virtual bool follows_scans() const { return false; }
-};
-
-/// A body's trajectory and a sensor on that body.
-struct BodyMotion {
-  Trajectory trajectory;                  ///< At least one pose.
-  Pose T_body_sensor = Pose::Identity();  ///< Takes points of the sensor to the body.
-  Nanoseconds time_offset = 0;            ///< Added to the times of scans.
-  Nanoseconds max_gap = kUsualMaxGap;     ///< Poses further apart are not interpolated.
-  bool follows_scans = false;             ///< See `SensorMotion`.
-};
-
-/// The motion of a sensor that is fixed on a body.
-class TrajectoryMotion : public SensorMotion {
- public:
-  /// @throws InternalError if there is no pose
-  explicit TrajectoryMotion(BodyMotion body);
-  [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp) const override;
-  [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> span() const override;
-  [[nodiscard]] Nanoseconds time_offset() const override { return body_.time_offset; }
-  [[nodiscard]] bool follows_scans() const override { return body_.follows_scans; }
+  [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp) const;
+  /// The time in which all steps are known, on the clock of the scans.
+  [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> span() const;
+  [[nodiscard]] Nanoseconds time_offset() const { return time_offset_; }
+  [[nodiscard]] bool follows_scans() const { return follows_scans_; }
 
  private:
-  BodyMotion body_;
+  std::vector<MotionStep> steps_;
+  Nanoseconds time_offset_, max_gap_;
+  bool follows_scans_;
 };
 
 /// The poses of scans, and what a user should know of them.

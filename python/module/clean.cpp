@@ -22,7 +22,6 @@ HeldMasks answer(const HeldSequence& held, const std::string& name, Remover& rem
     request.name = name;
     MethodTask task{held.sequence.get(), &request};
     task.options.threads = threads > 0 ? threads : hardware_threads();
-    task.options.loads_ahead = false;
     task.progress = work.progress;
     task.cancel = work.cancel;
     masks.masks = run_remover(remover, task).masks;

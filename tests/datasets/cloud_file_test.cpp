@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
-#include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/clouds/record_files.h"
 #include "tests/datasets/written_cloud.h"
 
 using namespace raymoval;
@@ -204,10 +204,6 @@ TEST_CASE("a damaged compressed block is named", "[cloud]") {
              {"announces 128 bytes", "take 144"});
   // A back reference to before the start: 0x20 0xFF = 3 bytes from 256 bytes back.
   check_says(read_error("a.pcd", head + words({2, 128}) + "\x20\xFF"), {"damaged"});
-  // 4 GB out of 4 bytes must not even be tried.
-  check_says(read_error("a.pcd", pcd_head(268435455, "binary_compressed") +
-                                     words({4, 4294967280U}) + "abcd"),
-             {"damaged"});
 }
 
 TEST_CASE("a header that cannot be is named", "[cloud]") {
@@ -220,19 +216,15 @@ TEST_CASE("a header that cannot be is named", "[cloud]") {
   check_says(header_error("FIELDS x y", "FIELDS x q"), {"no field 'y'", "x, q, z, intensity"});
   check_says(header_error("SIZE 4 4 4 4", "SIZE 4 4 4"), {"SIZE has 3 values", "expected 4"});
   check_says(header_error("SIZE 4 4 4 4\n", ""), {"no SIZE entry"});
-  check_says(header_error("SIZE 4 4 4 4", "SIZE 4 4 4 3"), {"'intensity'", "TYPE F SIZE 3"});
-  check_says(header_error("TYPE F F F F", "TYPE F F F Q"), {"'intensity'", "TYPE Q"});
   check_says(header_error("COUNT 1 1 1 1", "COUNT 1 1 1 -1"), {"'-1'"});
   check_says(header_error("COUNT 1 1 1 1", "COUNT 2 1 1 1"), {"'x' with one value"});
   check_says(header_error("POINTS 1", "POINTS 7"), {"POINTS 7", "WIDTH x HEIGHT = 1"});
-  check_says(header_error("WIDTH 1", "WIDTH 99999999999"), {"'99999999999'"});
   check_says(header_error("DATA ascii", "DATA zip"), {"'zip'", "binary_compressed"});
   check_says(header_error("DATA ascii", "DATAS ascii"), {"'DATAS'", "Did you mean 'DATA'"});
   check_says(header_error("DATA ascii\n1 2 3 4\n", ""), {"header does not end", "DATA"});
   check_says(header_error("WIDTH 1", "WIDTH 1\nWIDTH 1"), {"WIDTH", "twice"});
   check_says(read_error("e.pcd", ""), {"header does not end"});
   check_says(read_error("e.ply", "ply\nformat ascii 1.0\n"), {"header does not end", "end_header"});
-  check_says(read_error("e.ply", "plx\n"), {"line 1", "expected 'ply'"});
   check_says(read_error("e.ply",
                         "ply\nformat ascii 1.0\nelement vertex 1\n"
                         "property list uchar int x\nend_header\n"),
@@ -259,7 +251,6 @@ TEST_CASE("counts far beyond the file are refused without being allocated", "[cl
 }
 
 TEST_CASE("any cut and any flipped byte gives points or a DataError", "[cloud]") {
-  const TemporaryFolder folder;
   const std::string ply =
       "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const std::vector<std::string> whole = {
@@ -269,21 +260,11 @@ TEST_CASE("any cut and any flipped byte gives points or a DataError", "[cloud]")
       pcd_head(2, "binary") + floats({1, 2, 3, 0, 4, 5, 6, 1}),
       pcd_head(8, "binary_compressed") + kCompressedByPcl,
   };
-  std::mt19937 random(11);
   for (const std::string& content : whole) {
     const std::string name = content.starts_with("ply") ? "x.ply" : "x.pcd";
-    for (std::size_t i = 0; i < content.size(); ++i) {
-      std::string flipped = content;
-      flipped[i] = static_cast<char>(random() & 0xFFU);
-      for (const std::string& damaged : {content.substr(0, i), flipped}) {
-        try {
-          const Cloud cloud = read_cloud(folder.write(name, damaged));
-          CHECK(cloud.points.size() <= 99);  // A flipped digit of POINTS and WIDTH at most.
-        } catch (const DataError& error) {
-          CHECK_THAT(error.what(), Catch::Contains(name));
-        }
-      }
-    }
+    read_cut_and_flipped(name, content, 1, [](const std::filesystem::path& path) {
+      CHECK(read_cloud(path).points.size() <= 99);  // A flipped digit of POINTS and WIDTH at most.
+    });
   }
 }
 

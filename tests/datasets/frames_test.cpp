@@ -56,6 +56,10 @@ TEST_CASE("one number is not taken for a range, but told how to be one", "[frame
     return message_of<UsageError>([&] { parse_frame_range(text); });
   };
   check_says(message("5"), {"100:200, ::2. A single frame is 5:5."});
+  check_says(message("0"), {"A single frame is 0:0."});
+  CHECK(parse_frame_range("0:0:1").last == 0);
+  check_says(message("1:2:0"), {"stride '0'", "from 1 on"});
+  check_says(message("-1:2"), {"first '-1'", "from 0 on"});
   for (const char* text : {"-5", "x", "1:2:3:4"}) {
     CHECK_THAT(message(text), !Catch::Contains("single frame"));
   }
@@ -80,15 +84,20 @@ TEST_CASE("a range outside the data says which frames there are", "[frames]") {
   for (const char* text : {"2:4", "4:6", "8:9", "6:", ":2"}) {
     const auto message =
         message_of<DataError>([&] { choose_frames(files, parse_frame_range(text), "data/05"); });
-    check_says(message, {"data/05", text, "3 frames from 3 to 5"});
+    check_says(message, {"data/05", text, "reaches outside the data", "3 frames from 3 to 5"});
   }
 }
 
 TEST_CASE("a gap is an error inside a given range and part of a whole sequence", "[frames]") {
   const auto files = numbered({0, 1, 3, 4});
-  const auto message =
-      message_of<DataError>([&] { choose_frames(files, parse_frame_range("0:4"), "d"); });
-  check_says(message, {"no file for frame 2", "4 frames from 0 to 4"});
+  for (const char* range : {"0:4", "0:", ":4", "1:", ":3", "1:3"}) {
+    const auto says =
+        message_of<DataError>([&] { choose_frames(files, parse_frame_range(range), "d"); });
+    check_says(says, {"no file for frame 2", "4 frames from 0 to 4"});
+  }
+  CHECK(choose_frames(files, parse_frame_range("3:"), "d").files.size() == 2);
+  CHECK(choose_frames(files, parse_frame_range(":1"), "d").files.size() == 2);
+  CHECK(choose_frames(files, parse_frame_range("3:3"), "d").files.size() == 1);
   CHECK(numbers_of(choose_frames(files, {}, "d")) == std::vector<long>{0, 1, 3, 4});
   // The stride steps over the gap: 1, 3.
   CHECK(numbers_of(choose_frames(files, parse_frame_range("1:4:2"), "d")) ==
@@ -101,6 +110,22 @@ TEST_CASE("names sort naturally", "[frames]") {
   CHECK(natural_less("000009", "000010"));
   CHECK(natural_less("a", "ab"));
   CHECK(natural_less("a1b2", "a1b10"));
+  CHECK(natural_less("9", "10"));
+  CHECK_FALSE(natural_less("10", "9"));
+  CHECK(natural_less("01", "2"));
+  CHECK(natural_less("002", "03"));
+  CHECK(natural_less("2abc", "10"));
+  CHECK(natural_less("az", "b"));
+  CHECK(natural_less("a10", "a:"));  // ':' follows '9'.
+  CHECK_FALSE(natural_less("a:", "a10"));
+  CHECK_FALSE(natural_less("a.", "a--"));
+  CHECK_FALSE(natural_less("b", "ab"));
+  CHECK_FALSE(natural_less("ab", "a"));
+  CHECK_FALSE(natural_less("", ""));
+  CHECK(natural_less("", "a"));
+  CHECK(natural_less("1", "a"));
+  CHECK_FALSE(natural_less("a", "1"));
+  CHECK(natural_less("a01", "a1"));  // Nothing but the zeros differs.
   CHECK(natural_less("01", "1") != natural_less("1", "01"));
   CHECK_FALSE(natural_less("7", "7"));
 }
@@ -115,9 +140,33 @@ TEST_CASE("numbered files are listed by number, and strange names are errors", "
   folder.write("010.bin", "x");
   check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".bin"); }),
              {"frame 10 is already", "10.bin"});
-  folder.write("0000x.bin", "x");
-  check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".bin"); }),
-             {"0000x.bin", "no frame number"});
+  for (const std::string odd : {"0000x.bin", "-1.bin"}) {
+    folder.write(odd, "x");
+    check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".bin"); }),
+               {odd, "no frame number"});
+    std::filesystem::remove(folder / odd);
+  }
   check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".pcd"); }),
              {"holds no *.pcd"});
+}
+
+TEST_CASE("a stride without ends takes what there is, also where it steps over the last one",
+          "[frames]") {
+  const ChosenFrames chosen = choose_frames(numbered({0, 1, 2, 7}), parse_frame_range("::2"), "d");
+  CHECK(numbers_of(chosen) == std::vector<long>{0, 2});
+  CHECK(frame_range_text(chosen.range) == "0:7:2");
+}
+
+TEST_CASE("the content of a folder is told with up to eight names", "[frames]") {
+  const TemporaryFolder folder;
+  CHECK(content_text(folder.path()) == "nothing");
+  folder.write("b/in.txt", "x");
+  folder.write("a.txt", "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/");
+  for (const char* name : {"c", "d", "e", "f", "g", "h"}) folder.write(name, "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h");
+  folder.write("i", "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 1 more");
+  folder.write("j", "x");
+  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 2 more");
 }

@@ -29,47 +29,6 @@ void turn_world(EditedSequence& drive, double yaw) {
   drive.each_pose([&](const Pose& pose) { return turn * pose; });
 }
 
-/// The same points in scans of `degrees` each, as if the head had turned on and files were cut
-/// elsewhere. Each point keeps the frame that it has: that of its own time.
-/// @param drive skewed scans, one revolution clockwise from behind each
-EditedSequence cut_anew(const EditedSequence& drive, double degrees) {
-  const double turns = degrees / 360.0;
-  const auto count = static_cast<std::size_t>(static_cast<double>(drive.size()) / turns);
-  EditedSequence result = drive;
-  result.scans.assign(count, Scan{});
-  result.words.assign(count, {});
-  for (const Scan& scan : drive.scans) {
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const Eigen::Vector3f& p = scan.points[i];
-      const double azimuth = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi);
-      const double turn = static_cast<double>(scan.index) + 0.5 - azimuth;
-      const auto to = static_cast<std::size_t>(turn / turns);
-      if (to >= count) continue;
-      result.scans[to].points.push_back(p);
-      result.scans[to].reflectance.push_back(scan.reflectance[i]);
-      result.words[to].push_back(drive.words[scan.index][i]);
-    }
-  }
-  const double period = drive.scans[1].time_s - drive.scans[0].time_s;
-  for (std::size_t k = 0; k < count; ++k) {
-    Scan& scan = result.scans[k];
-    const double middle = (static_cast<double>(k) + 0.5) * turns - 0.5;  // In scans of the drive.
-    const std::size_t before = std::min(static_cast<std::size_t>(middle), drive.size() - 2);
-    const Pose& a = drive.scans[before].T_world_sensor;
-    const Pose& b = drive.scans[before + 1].T_world_sensor;
-    const double share = middle - static_cast<double>(before);
-    scan.index = k;
-    scan.name = std::to_string(k);
-    scan.time_s = middle * period;
-    scan.stored_point_count = scan.size();
-    scan.T_world_sensor.translation() = (1.0 - share) * a.translation() + share * b.translation();
-    scan.T_world_sensor.linear() = Eigen::Quaterniond(a.linear())
-                                       .slerp(share, Eigen::Quaterniond(b.linear()))
-                                       .toRotationMatrix();
-  }
-  return result;
-}
-
 }  // namespace
 
 TEST_CASE("a good drive is silent", "[inspect]") {
@@ -223,16 +182,13 @@ TEST_CASE("points in camera axes are told by the ground", "[inspect][slow]") {
   check_finds(both.inspected(), "camera-frame", "Points of a camera frame");
 }
 
-TEST_CASE("millimetres and kilometres are named, in points and in poses", "[inspect][slow]") {
-  for (const double factor : {1000.0, 0.001}) {
-    EditedSequence poses = good_drive();
-    poses.each_pose([&](Pose pose) {
-      pose.translation() *= factor;
-      return pose;
-    });
-    check_finds(poses.inspected(), factor > 1.0 ? "poses-in-millimetres" : "poses-in-kilometres",
-                "1,000");
-  }
+TEST_CASE("millimetres are named, in points and in poses", "[inspect][slow]") {
+  EditedSequence poses = good_drive();
+  poses.each_pose([](Pose pose) {
+    pose.translation() *= 1000.0;
+    return pose;
+  });
+  check_finds(poses.inspected(), "poses-in-millimetres", "1,000");
   EditedSequence points = good_drive();
   points.each_point([](const Scan&, const Eigen::Vector3d& p) { return 1000.0 * p; });
   check_finds(points.inspected(), "points-in-millimetres", "0.001");
@@ -244,24 +200,7 @@ TEST_CASE("millimetres and kilometres are named, in points and in poses", "[insp
         std::set<std::string>{"points-in-millimetres", "poses-in-millimetres"});
 }
 
-TEST_CASE("centimetres and feet are told by the agreement under the poses", "[inspect][slow]") {
-  const auto times = [](EditedSequence drive, double factor) {
-    drive.each_point([&](const Scan&, const Eigen::Vector3d& p) { return factor * p; });
-    return drive;
-  };
-  check_finds(times(good_drive(), 100.0).inspected(), "points-in-centimetres", "by 0.01.");
-  check_finds(times(good_drive(), 1.0 / 0.3048).inspected(), "points-in-feet", "by 0.3048.");
-
-  // A narrow place in millimetres is as large as a wide one in centimetres.
-  EditedSequence near = good_drive();
-  near.keep([](const Eigen::Vector3f& p) { return p.norm() < 12.0F; });
-  const std::set<std::string> names = found(times(near, 1000.0).inspected());
-  CHECK(names.contains("points-in-millimetres"));
-  CHECK_FALSE(names.contains("points-in-centimetres"));
-}
-
-TEST_CASE("both units are named if the scans do not tell", "[inspect][slow]") {
-  // The poses are centimetres, too, so the scans agree in no unit of the points.
+TEST_CASE("both units are named if the points may be either", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   drive.each_point([](const Scan&, const Eigen::Vector3d& p) { return 100.0 * p; });
   drive.each_pose([](Pose pose) {
@@ -278,19 +217,6 @@ TEST_CASE("both units are named if the scans do not tell", "[inspect][slow]") {
   CHECK_THAT(finding->remedy, Catch::Contains("by 0.001 if") && Catch::Contains("by 0.01 if"));
 }
 
-TEST_CASE("metres are not taken for feet, however little the scans agree", "[inspect][slow]") {
-  for (const char* sensor : {"rosette", "solid-state"}) {
-    for (const char* scene : {"motorway", "walk"}) {
-      SimulationOptions options;
-      options.scene = scene;
-      options.scans = 12;
-      options.sensor = sensor;
-      INFO(scene << ", " << sensor);
-      CHECK_FALSE(found(EditedSequence(options).inspected()).contains("points-in-feet"));
-    }
-  }
-}
-
 TEST_CASE("a quaternion's order is named", "[inspect][slow]") {
   EditedSequence drive = good_drive();
   turn_world(drive, 0.7);
@@ -301,13 +227,6 @@ TEST_CASE("a quaternion's order is named", "[inspect][slow]") {
     return pose;
   });
   check_finds(drive.inspected(), "quaternion-order", "columns");
-}
-
-TEST_CASE("points in the world frame are named", "[inspect][slow]") {
-  EditedSequence drive = good_drive();
-  drive.each_point(
-      [](const Scan& scan, const Eigen::Vector3d& p) { return scan.T_world_sensor * p; });
-  check_finds(drive.inspected(), "points-in-world", "--points world");
 }
 
 TEST_CASE("poses of another sequence are named", "[inspect][slow]") {
@@ -394,15 +313,6 @@ TEST_CASE("skewed scans are named, corrected ones are not", "[inspect][slow]") {
   CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise from behind"));
   options.rolling = Rolling::kCorrected;
   check_silent(EditedSequence(options).inspected());
-}
-
-TEST_CASE("skewed scans of more than one revolution are named", "[inspect][slow]") {
-  SimulationOptions options = suburb(sparse_hdl64e(), 18);
-  options.scene = "country";
-  options.rolling = Rolling::kSkewed;
-  const InspectionReport report = cut_anew(EditedSequence(options), 395.0).inspected();
-  check_finds(report, "skewed-scans", "deskewing");
-  CHECK_THAT(report.findings[0].what, Catch::Contains("clockwise, more than one revolution"));
 }
 
 TEST_CASE("a sensor that is named by mistake is named", "[inspect][slow]") {

@@ -158,15 +158,16 @@ TEST_CASE("the sensor is estimated when none is named", "[files]") {
   const TemporaryFolder folder;
   std::string poses;
   for (int i = 0; i < 7; ++i) {
+    // Of seven scans 0, 1, 3, 4 and 6. Scan 1 alone has the nearest point; 2 and 5 the farthest.
+    const float far = i == 2 || i == 5 ? 90.0F : 9.0F;
     write_cloud(folder / ("s" + std::to_string(i) + ".bin"),
-                {{static_cast<float>(3 + i), 0, 0}, {0, 5, 0}});
+                {{i == 1 ? 1.0F : 5.0F, 0, 0}, {0, far, 0}});
     poses += kIdentityRow;
   }
   folder.write("poses.txt", poses);
   const Sequence sequence = open_sequence(folder.text(), {});
-  // Scans 0, 1, 3, 4, 6 are looked at: ranges from 3 to 9.
   CHECK(sequence.scans->sensor().name == "estimated");
-  CHECK(sequence.scans->sensor().range_min == 3.0);
+  CHECK(sequence.scans->sensor().range_min == 1.0);
   CHECK(sequence.scans->sensor().range_max == 9.0);
   CHECK(sequence.record().sensor == "estimated");
   CHECK_FALSE(sequence.record().scan_period_s);

@@ -113,6 +113,8 @@ TEST_CASE("a root opens by sequence number or by the name of a segment", "[seman
   // What is there may have a stride, or no range of its own.
   std::filesystem::remove(folder / "sequences/05/velodyne/000001.bin");
   check_says(open_error(folder.text() + ":kitti-05"), {"2 frames", ":05 --frames 0:2:2."});
+  std::filesystem::remove(folder / "sequences/05/velodyne/000000.bin");
+  check_says(open_error(folder.text() + ":kitti-05"), {"1 frame from 2 to 2", ":05 --frames 2:2."});
   std::filesystem::remove(folder / "sequences/01/velodyne/000001.bin");
   std::filesystem::remove(folder / "sequences/01/velodyne/000151.bin");
   check_says(open_error(folder.text() + ":kitti-01"), {"250 frames from 0 to 251", ":01."});
@@ -124,11 +126,14 @@ TEST_CASE("a root opens by sequence number or by the name of a segment", "[seman
 
 TEST_CASE("the five segments have the scans of the evaluation protocol", "[semantickitti]") {
   const std::vector<long> scans = {71, 101, 46, 161, 96};
+  const std::vector<std::string> ranges = {"4390:4530:2", "150:250:1", "860:950:2", "2350:2670:2",
+                                           "630:820:2"};
   REQUIRE(paper_segments().size() == scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const FrameRange& range = paper_segments()[i].frames;
     CHECK((*range.last - *range.first) / range.stride + 1 == scans[i]);
     CHECK(paper_segments()[i].name == "kitti-" + paper_segments()[i].sequence);
+    CHECK(frame_range_text(range) == ranges[i]);
   }
 }
 

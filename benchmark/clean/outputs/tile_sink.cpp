@@ -133,8 +133,7 @@ void TileSink::write_manifest() const {
   manifest["format"] = tiling_.extension.substr(1);
   manifest["tile_size_m"] = tiling_.size_m;
   manifest["origin"] = {0.0, 0.0, 0.0};
-  manifest["crs"] =
-      tiling_.writing.crs ? ordered_json(*tiling_.writing.crs) : ordered_json(nullptr);
+  manifest["crs"] = nullptr;
   manifest["fields"] = ordered_json::array();
   for (const PointField& field : layout_.fields) manifest["fields"].push_back(field.text());
   manifest["R_upright_world"] = ordered_json::array();

@@ -28,7 +28,7 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labelled, labels, scans, page, picture;
-  std::string voxel, tiles, tile_format, crs, intensity_scale, memory_limit;
+  std::string voxel, tiles, tile_format, intensity_scale, memory_limit;
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
@@ -92,7 +92,6 @@ MethodAnswer find_removals(const CleanFlags& flags, const ConfiguredMethod& meth
   MethodTask task{&sequence, &request};
   task.options.threads = flags.work.thread_count();
   task.options.with_confidence = flags.confidence;
-  task.options.loads_ahead = false;
   task.progress = &progress;
   task.cancel = &interrupt_flag();
   task.spool_beside = paths.all().front().path;
@@ -151,7 +150,6 @@ CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method)
     if (flags.tiles.empty()) throw UsageError("--tile-format needs --tiles METRES.");
     writing.tile_extension = '.' + flags.tile_format.substr(flags.tile_format.front() == '.');
   }
-  if (!flags.crs.empty()) writing.crs = flags.crs;
   if (!flags.intensity_scale.empty()) {
     writing.intensity_scale = parse_positive("--intensity-scale", flags.intensity_scale);
   }
@@ -320,9 +318,6 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
               "folders");
   options.add("--tile-format", "FORMAT", flags.tile_format,
               "The format of the tiles, such as ply (default: pcd)");
-  options.add("--crs", "CRS", flags.crs,
-              "Coordinate reference system that LAS files say: EPSG:CODE (UTM zones), WKT, or a "
-              "file with WKT");
   options.add("--intensity-scale", "FACTOR", flags.intensity_scale,
               "What a real intensity is multiplied by where LAS files show it as a whole number up "
               "to 65535, such as 65535 for intensities from 0 to 1 (default: 1); the exact values "

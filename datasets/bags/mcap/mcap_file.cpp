@@ -30,14 +30,6 @@ std::uint64_t McapFields::number(std::size_t size) {
   return number;
 }
 
-McapSchema read_mcap_schema(std::string_view content, const std::string& where) {
-  McapFields fields(content, where);
-  McapSchema schema;
-  schema.id = fields.u16();
-  schema.name = fields.text();
-  return schema;
-}
-
 McapChannel read_mcap_channel(std::string_view content, const std::string& where) {
   McapFields fields(content, where);
   McapChannel channel;
@@ -71,20 +63,6 @@ McapChunkHead read_mcap_chunk(std::string_view content, const std::string& where
   return chunk;
 }
 
-McapMessageIndex read_mcap_message_index(std::string_view content, const std::string& where) {
-  McapFields fields(content, where);
-  McapMessageIndex index;
-  index.channel = fields.u16();
-  McapFields entries(fields.text(), where);
-  while (!entries.empty()) {
-    McapMessageIndex::Entry entry;
-    entry.log_time = entries.u64();
-    entry.offset = entries.u64();
-    index.entries.push_back(entry);
-  }
-  return index;
-}
-
 McapChunkIndex read_mcap_chunk_index(std::string_view content, const std::string& where) {
   McapFields fields(content, where);
   McapChunkIndex index;
@@ -98,15 +76,6 @@ McapChunkIndex read_mcap_chunk_index(std::string_view content, const std::string
     index.index_places[channel] = places.u64();
   }
   return index;
-}
-
-McapFooter read_mcap_footer(std::string_view content, const std::string& where) {
-  McapFields fields(content, where);
-  McapFooter footer;
-  footer.summary_start = fields.u64();
-  footer.offsets_start = fields.u64();
-  footer.crc = fields.u32();
-  return footer;
 }
 
 std::string for_each_record(std::string_view records,
@@ -150,8 +119,7 @@ Unpacked unpack_by(const std::string& compression, std::string packed, std::uint
   return {std::move(packed), problem};
 }
 
-}  // namespace
-
+/// What an op is called.
 std::string_view mcap_op_name(McapOp op) {
   static constexpr std::array<std::string_view, 16> kNames = {
       "record of type 0", "header",     "footer",        "schema",         "channel",
@@ -161,6 +129,8 @@ std::string_view mcap_op_name(McapOp op) {
   const auto number = static_cast<std::size_t>(op);
   return number < kNames.size() ? kNames[number] : "record of an unknown type";
 }
+
+}  // namespace
 
 McapFile::McapFile(const std::filesystem::path& path) : bytes_(path) {
   if (bytes_.read_up_to(0, kMcapMagic.size()) == kMcapMagic) return;
@@ -220,7 +190,7 @@ McapChunkPlace McapFile::chunk(const McapPlace& record) const {
   return chunk;
 }
 
-Unpacked McapFile::unpack(const McapChunkPlace& chunk, bool check) const {
+Unpacked McapFile::unpack(const McapChunkPlace& chunk) const {
   const McapChunkHead& head = chunk.head;
   if (head.packed_size > kMostContent) throw_too_large(chunk.where, head.packed_size);
   std::string packed = bytes_.read_up_to(chunk.packed, head.packed_size);
@@ -230,7 +200,7 @@ Unpacked McapFile::unpack(const McapChunkPlace& chunk, bool check) const {
   const std::uint64_t most = std::min(head.unpacked_size, most_unpacked_size(packed.size()));
   Unpacked unpacked = unpack_by(head.compression, std::move(packed), most, chunk.where);
   if (is_cut) unpacked.problem = "the file ends in the middle of it";
-  if (check && unpacked.problem.empty() && head.crc != 0 && crc32_of(unpacked.bytes) != head.crc) {
+  if (unpacked.problem.empty() && head.crc != 0 && crc32_of(unpacked.bytes) != head.crc) {
     return {"", "its bytes do not have the checksum that is stored with it"};
   }
   return unpacked;

@@ -37,12 +37,7 @@ enum class McapOp : std::uint8_t {
   kChunk = 0x06,
   kMessageIndex = 0x07,
   kChunkIndex = 0x08,
-  kAttachment = 0x09,
-  kAttachmentIndex = 0x0A,
   kStatistics = 0x0B,
-  kMetadata = 0x0C,
-  kMetadataIndex = 0x0D,
-  kSummaryOffset = 0x0E,
   kDataEnd = 0x0F,
 };
 
@@ -70,11 +65,6 @@ class McapFields {
   std::size_t at_ = 0;
 };
 
-struct McapSchema {
-  std::uint16_t id = 0;
-  std::string name;
-};
-
 struct McapChannel {
   std::uint16_t id = 0, schema = 0;  ///< Schema 0 is none.
   std::string topic, encoding;
@@ -94,32 +84,16 @@ struct McapChunkHead {
   std::uint64_t packed_size = 0;
 };
 
-struct McapMessageIndex {
-  struct Entry {
-    std::uint64_t log_time = 0, offset = 0;
-  };
-  std::uint16_t channel = 0;
-  std::vector<Entry> entries;
-};
-
 struct McapChunkIndex {
   std::uint64_t start = 0, length = 0;                  ///< Of the chunk's record.
   std::map<std::uint16_t, std::uint64_t> index_places;  ///< Of the message index of each channel.
 };
 
-struct McapFooter {
-  std::uint64_t summary_start = 0, offsets_start = 0;
-  std::uint32_t crc = 0;  ///< 0 is none.
-};
-
-McapSchema read_mcap_schema(std::string_view content, const std::string& where);
 McapChannel read_mcap_channel(std::string_view content, const std::string& where);
 McapMessageHead read_mcap_message(std::string_view content, const std::string& where);
 /// @param content its beginning is enough
 McapChunkHead read_mcap_chunk(std::string_view content, const std::string& where);
-McapMessageIndex read_mcap_message_index(std::string_view content, const std::string& where);
 McapChunkIndex read_mcap_chunk_index(std::string_view content, const std::string& where);
-McapFooter read_mcap_footer(std::string_view content, const std::string& where);
 
 /// A record among others: where it begins, and what it holds.
 struct McapRecord {
@@ -173,9 +147,8 @@ class McapFile {
   /// @throws DataError if its head is damaged or its compression is unknown
   [[nodiscard]] McapChunkPlace chunk(const McapPlace& record) const;
   /// The records in a chunk. What is wrong with them is told in the answer, with what can be had.
-  /// @param check whether their checksum is looked at
   /// @throws DataError if it is said to have more than is allowed (see `check_unpacked_size`)
-  [[nodiscard]] Unpacked unpack(const McapChunkPlace& chunk, bool check = true) const;
+  [[nodiscard]] Unpacked unpack(const McapChunkPlace& chunk) const;
 
   /// "drive.mcap: byte 4,117: chunk", to begin messages.
   [[nodiscard]] std::string where(const McapPlace& record) const;
@@ -183,8 +156,5 @@ class McapFile {
  private:
   BagFile bytes_;
 };
-
-/// What an op is called.
-std::string_view mcap_op_name(McapOp op);
 
 }  // namespace raymoval

@@ -18,7 +18,6 @@ namespace raymoval {
 
 /// What a ROS 1 bag holds, without its messages.
 struct Ros1Contents {
-  std::map<std::uint32_t, Ros1Connection> connections;
   std::map<std::uint32_t, std::size_t> topics;  ///< Topic in `messages` of each connection.
   std::vector<Ros1Chunk> chunks;                ///< In the order of the file.
   MessageTable messages;                        ///< Places are those of `message_place`.
@@ -65,9 +64,9 @@ class Ros1Bag : public Bag {
   [[nodiscard]] const std::vector<Ros1Chunk>& chunks() const { return contents_.chunks; }
 
  private:
-  template <class Call>
-  auto with_chunk(std::size_t number, Call&& call) const;
   std::string read_message(std::size_t topic, std::size_t index, std::size_t most) const;
+  std::string read_from(const Ros1Bytes& chunk, std::uint64_t offset, std::size_t topic,
+                        std::size_t most) const;
 
   BagFile file_;
   mutable DamageNotes notes_;

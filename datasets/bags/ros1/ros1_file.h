@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +14,7 @@ namespace raymoval {
 
 /// The line that a ROS 1 bag begins with.
 inline constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
+
 /// What a record is, as its field "op" says.
 enum class Ros1Op : std::uint8_t {
   kMessage = 0x02,
@@ -27,54 +27,46 @@ enum class Ros1Op : std::uint8_t {
 
 /// A record of a ROS 1 bag: its header, whose fields are NAME=BYTES, and where its data stands.
 struct Ros1Record {
+  std::uint64_t begin = 0;
+  std::string where;   ///< "drive.bag: byte 4,117", to begin messages.
   std::string header;  ///< The fields with their lengths.
   std::uint64_t data_begin = 0;
   std::uint32_t data_size = 0;
 
   [[nodiscard]] std::uint64_t end() const { return data_begin + data_size; }
+  /// What the record is, which may be an op that is unknown.
+  /// @throws DataError if the field is missing or of another size; so do all others
+  [[nodiscard]] Ros1Op op() const;
+  [[nodiscard]] std::uint32_t u32(std::string_view field) const;
+  [[nodiscard]] std::uint64_t u64(std::string_view field) const;
+  /// Seconds and nanoseconds since 1970.
+  [[nodiscard]] Nanoseconds time(std::string_view field) const;
+  [[nodiscard]] std::string text(std::string_view field) const;
+  /// The same of a field that may be missing.
+  [[nodiscard]] std::optional<std::string> find(std::string_view field) const;
 };
 
 /// Bytes that records stand in, of which those from a place on can be asked for.
 class Ros1Bytes {
  public:
-  virtual ~Ros1Bytes() = default;
-  [[nodiscard]] virtual std::uint64_t size() const = 0;
+  explicit Ros1Bytes(const BagFile& file) : Ros1Bytes(file, 0, file.size()) {}
+  /// The records of a chunk that is not packed, read from the file when asked for.
+  Ros1Bytes(const BagFile& file, std::uint64_t begin, std::uint64_t size)
+      : file_(&file), begin_(begin), size_(size) {}
+  /// The records of a chunk, unpacked. @param chunk_place where the chunk stands, for messages
+  Ros1Bytes(std::string_view unpacked, std::string chunk_place)
+      : size_(unpacked.size()), unpacked_(unpacked), chunk_place_(std::move(chunk_place)) {}
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
   /// @param count at most what is there from `offset` on
-  [[nodiscard]] virtual std::string read(std::uint64_t offset, std::uint64_t count) const = 0;
+  [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t count) const;
   /// "drive.bag: byte 4,117", to begin messages.
-  [[nodiscard]] virtual std::string place(std::uint64_t offset) const = 0;
-};
-
-/// The bytes of a file.
-class Ros1FileBytes : public Ros1Bytes {
- public:
-  explicit Ros1FileBytes(const BagFile& file) : file_(file) {}
-  [[nodiscard]] std::uint64_t size() const override { return file_.size(); }
-  [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t count) const override {
-    return file_.read(offset, count);
-  }
-  [[nodiscard]] std::string place(std::uint64_t offset) const override {
-    return file_.place(offset);
-  }
+  [[nodiscard]] std::string place(std::uint64_t offset) const;
 
  private:
-  const BagFile& file_;
-};
-
-/// The bytes of a chunk, unpacked.
-class Ros1ChunkBytes : public Ros1Bytes {
- public:
-  /// @param chunk_place where the chunk stands, for messages
-  Ros1ChunkBytes(std::string_view bytes, std::string chunk_place)
-      : bytes_(bytes), chunk_place_(std::move(chunk_place)) {}
-  [[nodiscard]] std::uint64_t size() const override { return bytes_.size(); }
-  [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t count) const override {
-    return std::string(bytes_.substr(offset, count));
-  }
-  [[nodiscard]] std::string place(std::uint64_t offset) const override;
-
- private:
-  std::string_view bytes_;
+  const BagFile* file_ = nullptr;
+  std::uint64_t begin_ = 0, size_ = 0;
+  std::string_view unpacked_;
   std::string chunk_place_;
 };
 
@@ -85,22 +77,10 @@ Ros1Record read_record(const Ros1Bytes& bytes, std::uint64_t offset);
 /// What a record must have whole, besides its header. @throws DataError naming the byte if not
 void check_data_is_there(const Ros1Bytes& bytes, const Ros1Record& record);
 
-/// The fields of a header. @throws DataError if a length does not fit or a field has no name
-/// @param where begins the message
-void for_each_field(std::string_view header, const std::string& where,
-                    const std::function<void(std::string_view name, std::string_view value)>& call);
-
-/// The bytes of the field `name`; nothing if there is none. @throws DataError as `for_each_field`
-std::optional<std::string> find_field(std::string_view header, std::string_view name,
-                                      const std::string& where);
-/// The same of a field that has to be there. @throws DataError
-std::string text_field(std::string_view header, std::string_view name, const std::string& where);
-std::uint32_t u32_field(std::string_view header, std::string_view name, const std::string& where);
-std::uint64_t u64_field(std::string_view header, std::string_view name, const std::string& where);
-/// Seconds and nanoseconds since 1970.
-Nanoseconds time_field(std::string_view header, std::string_view name, const std::string& where);
-/// The op of a record, which may be one that is unknown. @throws DataError
-Ros1Op op_of(const Ros1Record& record, const std::string& where);
+/// The next message or connection of an unpacked chunk from `at` on, which must be there whole;
+/// others are skipped, and `at` is moved behind it. Nothing at the end.
+/// @throws DataError naming the byte where the chunk is damaged
+std::optional<Ros1Record> next_in_chunk(const Ros1Bytes& bytes, std::uint64_t& at);
 
 /// A number of `Number`'s size at `offset`, which has to be there.
 template <class Number>
@@ -121,16 +101,14 @@ struct Ros1Connection {
   std::uint32_t id = 0;
   std::string topic;
   std::string type, md5;
-  std::string fields;  ///< All that its record's data says, as it stands there.
-  bool operator==(const Ros1Connection&) const = default;
 };
 
 /// @throws DataError naming what its record lacks
-Ros1Connection read_connection(const Ros1Bytes& bytes, const Ros1Record& record,
-                               const std::string& where);
+Ros1Connection read_connection(const Ros1Bytes& bytes, const Ros1Record& record);
 
 /// How the messages of a chunk are packed.
 enum class Ros1Compression : std::uint8_t { kNone, kBz2, kLz4 };
+
 /// "none", "bz2" or "lz4", as a chunk's header says it.
 std::string_view ros1_compression_name(Ros1Compression compression);
 
@@ -145,59 +123,11 @@ struct Ros1Chunk {
 };
 
 /// The chunk that `record` is. Of one that is cut, what is there.
-/// @param begin where the record stands
 /// @throws DataError naming what is wrong with its header, with a size beyond the limits of
 ///   `check_unpacked_size`, and for a compression that is unknown
-Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record, std::uint64_t begin);
+Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record);
 
-/// The unpacked bytes of a chunk as far as they can be had. @throws UnreadableError
+/// The unpacked bytes of a packed chunk as far as they can be had. @throws UnreadableError
 Unpacked unpack_chunk(const BagFile& file, const Ros1Chunk& chunk);
-
-/// The bytes of a chunk that is not packed, read from the file when asked for.
-class Ros1PlainChunkBytes : public Ros1Bytes {
- public:
-  Ros1PlainChunkBytes(const BagFile& file, const Ros1Chunk& chunk) : file_(file), chunk_(chunk) {}
-  [[nodiscard]] std::uint64_t size() const override { return chunk_.packed; }
-  [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t count) const override {
-    return file_.read(chunk_.data_begin + offset, count);
-  }
-  [[nodiscard]] std::string place(std::uint64_t offset) const override {
-    return file_.place(chunk_.data_begin + offset);
-  }
-
- private:
-  const BagFile& file_;
-  const Ros1Chunk& chunk_;
-};
-
-/// A message or a connection in a chunk.
-struct Ros1ChunkRecord {
-  Ros1Op op = Ros1Op::kMessage;
-  std::uint64_t begin = 0;  ///< In the unpacked chunk.
-  Ros1Record record;
-  std::uint32_t connection = 0;  ///< Of a message.
-  Nanoseconds time = 0;          ///< Of a message: when it was recorded.
-};
-
-/// Goes through the records of an unpacked chunk from front to back.
-class Ros1ChunkWalk {
- public:
-  /// @param bytes outlives this object
-  explicit Ros1ChunkWalk(const Ros1Bytes& bytes) : bytes_(bytes) {}
-  /// Goes on at `offset`.
-  void jump(std::uint64_t offset) { at_ = offset; }
-  /// The next message or connection that is there whole; others are skipped. Nothing at the end,
-  /// and where the chunk is damaged. @throws UnreadableError
-  std::optional<Ros1ChunkRecord> next();
-  /// What is wrong where `next` ended, as a sentence; empty at the end of the chunk.
-  [[nodiscard]] const std::string& problem() const { return problem_; }
-
- private:
-  std::optional<Ros1ChunkRecord> read_next();
-
-  const Ros1Bytes& bytes_;
-  std::uint64_t at_ = 0;
-  std::string problem_;
-};
 
 }  // namespace raymoval

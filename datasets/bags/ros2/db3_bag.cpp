@@ -24,8 +24,8 @@ int count_steps(void* left) {
   return *steps < 0 ? 1 : 0;
 }
 
-/// "file:..." of a path, in which three characters have another meaning.
-std::string uri_of(const std::filesystem::path& path, std::string_view options) {
+/// "file:..." of a path that is only read, in which three characters have another meaning.
+std::string uri_of(const std::filesystem::path& path) {
   std::string uri = "file:";
   for (const char letter : std::filesystem::absolute(path).string()) {
     if (letter == '?') {
@@ -38,37 +38,33 @@ std::string uri_of(const std::filesystem::path& path, std::string_view options) 
       uri += letter;
     }
   }
-  return uri + std::string(options);
+  return uri + "?mode=ro&immutable=1";
 }
 
 }  // namespace
 
-SqliteDatabase::SqliteDatabase(std::filesystem::path path, const std::string& uri, int flags)
-    : path_(std::move(path)), steps_(std::make_unique<std::int64_t>(kStepsOfSchema)) {
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, bool is_cut)
+    : path_(path), steps_(kStepsOfSchema) {
   sqlite3* opened = nullptr;
   const int code =
-      sqlite3_open_v2(uri.c_str(), &opened, flags | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
+      sqlite3_open_v2(uri_of(path).c_str(), &opened,
+                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
   handle_.reset(opened);
   if (!handle_) throw std::bad_alloc();
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(handle(), 1);
-  sqlite3_progress_handler(handle(), kStepsAtOnce, count_steps, steps_.get());
+  sqlite3_progress_handler(handle(), kStepsAtOnce, count_steps, &steps_);
   sqlite3_db_config(handle(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(handle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(handle(), SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   run("PRAGMA mmap_size=0");
   run("PRAGMA temp_store=MEMORY");
-}
-
-SqliteDatabase SqliteDatabase::to_read(const std::filesystem::path& path, bool is_cut) {
-  SqliteDatabase database(path, uri_of(path, "?mode=ro&immutable=1"), SQLITE_OPEN_READONLY);
   const auto most = std::min<std::int64_t>(kMostValueBytes,
                                            static_cast<std::int64_t>(plain_file_size(path)) + 1024);
-  sqlite3_limit(database.handle(), SQLITE_LIMIT_LENGTH, static_cast<int>(most));
-  database.run("PRAGMA cell_size_check=ON");
+  sqlite3_limit(handle(), SQLITE_LIMIT_LENGTH, static_cast<int>(most));
+  run("PRAGMA cell_size_check=ON");
   // So the library opens what has fewer pages than it says. Nothing is written in any case.
-  if (is_cut) database.run("PRAGMA writable_schema=ON");
-  return database;
+  if (is_cut) run("PRAGMA writable_schema=ON");
 }
 
 void SqliteDatabase::run(const std::string& sql) const {
@@ -92,9 +88,6 @@ void SqliteDatabase::fail(int code) const {
     throw UnreadableError(path_.string() + ": cannot be read or written (" + reason +
                           (cause == 0 ? "" : ": " + std::generic_category().message(cause)) +
                           "). Check its rights, and that its disk or share answers.");
-  }
-  if (kind == SQLITE_FULL) {
-    throw DataError(path_.string() + ": cannot be written (" + reason + "). Free space.");
   }
   if (kind == SQLITE_INTERRUPT) {
     throw DataError(path_.string() +
@@ -184,14 +177,11 @@ bool is_cut(const BagFile& file, DamageNotes& damage) {
 }  // namespace
 
 Db3Bag::Db3Bag(const std::filesystem::path& path)
-    : file_((check_nothing_beside(path), path)),
-      database_(SqliteDatabase::to_read(path, is_cut(file_, damage_))) {
+    : file_((check_nothing_beside(path), path)), database_(path, is_cut(file_, damage_)) {
   check_tables();
   read_topics();
-  Db3Rows rows(*this, damage_);
-  while (const auto row = rows.next()) {
-    table_.add(row->topic, {row->stamp, static_cast<std::uint64_t>(row->id)});
-  }
+  const std::string damage = damage_in([&] { read_messages(); });
+  if (!damage.empty()) damage_.add(damage);
   table_.finish();
 }
 
@@ -222,13 +212,37 @@ void Db3Bag::read_topics() {
   }
 }
 
-std::string Db3Bag::place(std::int64_t row) const {
-  return path().filename().string() + ": message " + std::to_string(row);
+void Db3Bag::read_messages() {
+  database_.allow_steps(10'000'000 + 4 * static_cast<std::int64_t>(file_.size()));
+  // No index is used, for in a cut file it may be what is missing.
+  SqliteStatement rows(database_,
+                       "SELECT rowid, topic_id, timestamp, CASE typeof(data) WHEN 'blob' THEN "
+                       "length(data) ELSE -1 END FROM messages NOT INDEXED");
+  std::int64_t last = -1;
+  std::uint64_t bytes = 0;
+  while (rows.step()) {
+    const std::int64_t id = rows.number(0), size = rows.number(3);
+    bytes += static_cast<std::uint64_t>(std::max<std::int64_t>(0, size));
+    // Rows can be made to share pages, and pages to contain each other. Then ids do not grow, or
+    // the messages together have more bytes than the file.
+    if (id <= last || bytes > file_.size()) {
+      throw DataError(place(id) +
+                      " shares its place in the file with others; the database is damaged, and "
+                      "what stands before is read.");
+    }
+    last = id;
+    const auto topic = topics_.find(rows.number(1));
+    if (topic != topics_.end() && size >= 0) {
+      table_.add(topic->second, {rows.number(2), static_cast<std::uint64_t>(id)});
+    } else {
+      damage_.add(place(id) + " has no " + (topic != topics_.end() ? "bytes" : "topic") +
+                  "; left out.");
+    }
+  }
 }
 
-std::optional<std::size_t> Db3Bag::topic_of(std::int64_t id) const {
-  const auto found = topics_.find(id);
-  return found == topics_.end() ? std::nullopt : std::optional(found->second);
+std::string Db3Bag::place(std::int64_t row) const {
+  return path().filename().string() + ": message " + std::to_string(row);
 }
 
 std::string Db3Bag::stored(std::int64_t row, std::size_t most) const {
@@ -260,46 +274,6 @@ std::string Db3Bag::message_head(std::size_t topic, std::size_t index, std::size
   if (!damage_.empty()) return Bag::message_head(topic, index, most);
   std::string head = stored(static_cast<std::int64_t>(table_.at(topic, index).place), most);
   return is_zstd(head) ? Bag::message_head(topic, index, most) : head;
-}
-
-Db3Rows::Db3Rows(const Db3Bag& bag, DamageNotes& damage) : bag_(bag), damage_(damage) {
-  bag.database().allow_steps(10'000'000 + 4 * static_cast<std::int64_t>(bag.file_size()));
-}
-
-std::optional<Db3Rows::Row> Db3Rows::next() {
-  try {
-    return row();
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError& error) {
-    damage_.add(error.what());
-    return std::nullopt;
-  }
-}
-
-std::optional<Db3Rows::Row> Db3Rows::row() {
-  if (!rows_) {
-    // No index is used, for in a cut file it may be what is missing.
-    rows_.emplace(bag_.database(),
-                  "SELECT rowid, topic_id, timestamp, CASE typeof(data) WHEN 'blob' THEN "
-                  "length(data) ELSE -1 END FROM messages NOT INDEXED");
-  }
-  while (rows_->step()) {
-    const std::int64_t id = rows_->number(0), size = rows_->number(3);
-    bytes_ += static_cast<std::uint64_t>(std::max<std::int64_t>(0, size));
-    // Rows can be made to share pages, and pages to contain each other. Then ids do not grow, or
-    // the messages together have more bytes than the file.
-    if (id < 0 || (last_ && id <= *last_) || bytes_ > bag_.file_size()) {
-      throw DataError(bag_.place(id) +
-                      " shares its place in the file with others; the database is damaged, and "
-                      "what stands before is read.");
-    }
-    last_ = id;
-    const auto topic = bag_.topic_of(rows_->number(1));
-    if (topic && size >= 0) return Row{id, rows_->number(2), *topic};
-    damage_.add(bag_.place(id) + " has no " + (topic ? "bytes" : "topic") + "; left out.");
-  }
-  return std::nullopt;
 }
 
 }  // namespace raymoval

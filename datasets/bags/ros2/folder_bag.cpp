@@ -218,12 +218,9 @@ void Ros2FolderBag::add_part(std::size_t file, const Open& open) {
     return;
   }
   Part part{file, nullptr, {}};
-  try {
-    part.bag = open(listed.path);
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const DataError& error) {
-    damage_.add(error.what());
+  const std::string damage = damage_in([&] { part.bag = open(listed.path); });
+  if (!damage.empty()) {
+    damage_.add(damage);
     return;
   }
   for (std::size_t own = 0; own < part.bag->topics().size(); ++own) {

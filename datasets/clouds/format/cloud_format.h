@@ -38,9 +38,6 @@ struct ShownIntensity {
 
 /// How a file of point records is to be written.
 struct RecordWriting {
-  /// LAS: the coordinate reference system as WKT, a file with WKT, or "EPSG:32632" (see
-  /// `reference_system_text`); no other format holds one.
-  std::optional<std::string> crs = std::nullopt;
   /// LAS: what a real intensity is multiplied by for the whole number from 0 to 65535 that viewers
   /// show. The exact value stands beside it.
   double intensity_scale = 1.0;
@@ -100,7 +97,6 @@ struct CloudFormat {
                                             const RecordWriting& writing) = nullptr;
   /// As `what_is_lost`; null if the format is only read.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
-  bool holds_reference_system = false;
   /// The layout of the records of a file without reading its points; null if it takes as much.
   RecordLayout (*read_layout)(const std::filesystem::path& path,
                               const RecordReading& reading) = nullptr;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
@@ -96,5 +97,19 @@ CloudHeader parse_pcd_header(std::string_view bytes, const std::filesystem::path
 /// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements before the
 ///   vertices that the file has no bytes for
 CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path);
+
+/// The positions and strengths of the points of a PCD or PLY file. Of text, other fields are not
+/// looked at.
+/// @param origin as `read_cloud`
+/// @throws DataError with line and column for what is no number, with the line for a wrong count of
+///   values or of lines; if there are fewer bytes than the header's points take, or a compressed
+///   body is damaged
+Cloud header_cloud(const CloudHeader& header, const CloudBytes& file,
+                   const Eigen::Vector3d& origin);
+
+/// All fields of such points. In text each value is a number of its type: whole types exactly to 64
+/// bits, reals rounded to nearest; padding is read where it is a number.
+/// @throws DataError as `header_cloud`, also for a number that the field's type does not have
+PointRecords header_records(const CloudHeader& header, const CloudBytes& file);
 
 }  // namespace raymoval

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/clouds/format/header_points.h"
+#include "datasets/clouds/format/cloud_header.h"
 
 #include <liblzf/lzf.h>
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/clouds/las/las_encoder.h"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -17,35 +15,10 @@
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/las/las_fields.h"
 #include "datasets/clouds/las/las_head.h"
-#include "datasets/clouds/las/reference_system.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
 namespace {
-
-/// Coordinates of a LAS file that is written: whole numbers of 32 bits times a scale from an
-/// offset.
-class LasGrid {
- public:
-  /// @param where the file, for messages
-  /// @param first the points that the file begins with
-  /// @param notes the scale and offset to use if `first` lies within them, or null
-  LasGrid(std::string where, const PointRecords& first, const LasNotes* notes);
-
-  /// Writes the three numbers of a place to `to`.
-  /// @param point number in the file, for messages
-  /// @throws DataError if the place is not finite or beyond what the numbers reach
-  void encode(const Eigen::Vector3d& place, std::uint64_t point, char* to);
-
-  /// Writes scale, offset and the bounds of what was encoded into the head of a LAS file.
-  void put_into(std::string& head) const;
-
- private:
-  std::string where_;
-  Eigen::Vector3d scale_ = Eigen::Vector3d::Constant(0.001);
-  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
-  Eigen::Array3d least_, most_;  ///< Of the numbers; least > most if there are none.
-};
 
 constexpr double kMost = std::numeric_limits<std::int32_t>::max();
 /// Further from 0 than this along an axis, the offset is near the first points, metres. The numbers
@@ -70,61 +43,80 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> bounds_of(const PointRecords& points
   return {least, most};
 }
 
-LasGrid::LasGrid(std::string where, const PointRecords& first, const LasNotes* notes)
-    : where_(std::move(where)) {
-  least_.setConstant(std::numeric_limits<double>::infinity());
-  most_ = -least_;
-  const auto [least, most] = bounds_of(first);
-  if (notes != nullptr) {
-    scale_ = notes->scale;
-    const auto steps = [&](const Eigen::Vector3d& place) {
-      return ((place - notes->offset).array() / scale_.array()).abs().maxCoeff();
+/// Coordinates of a LAS file that is written: whole numbers of 32 bits times a scale from an
+/// offset.
+class LasGrid {
+ public:
+  /// @param where the file, for messages
+  /// @param first the points that the file begins with
+  /// @param notes the scale and offset to use if `first` lies within them, or null
+  LasGrid(std::string where, const PointRecords& first, const LasNotes* notes)
+      : where_(std::move(where)) {
+    least_.setConstant(std::numeric_limits<double>::infinity());
+    most_ = -least_;
+    const auto [least, most] = bounds_of(first);
+    if (notes != nullptr) {
+      scale_ = notes->scale;
+      const auto steps = [&](const Eigen::Vector3d& place) {
+        return ((place - notes->offset).array() / scale_.array()).abs().maxCoeff();
+      };
+      if (steps(least) < kMost && steps(most) < kMost) {
+        offset_ = notes->offset;
+        return;
+      }
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double reach = std::max(std::abs(least[axis]), std::abs(most[axis]));
+      const bool far = reach > std::min(kFar, 0.5 * kMost * std::abs(scale_[axis]));
+      if (far) offset_[axis] = std::floor(least[axis]);
+    }
+  }
+
+  /// Writes the three numbers of a place to `to`.
+  /// @param point number in the file, for messages
+  /// @throws DataError if the place is not finite or beyond what the numbers reach
+  void encode(const Eigen::Vector3d& place, std::uint64_t point, char* to) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double steps = std::nearbyint((place[axis] - offset_[axis]) / scale_[axis]);
+      if (!(std::abs(steps) <= kMost)) {
+        throw DataError(where_ + ": point " + grouped_text(point) + " has " + "xyz"[axis] + " = " +
+                        number_text(place[axis]) + ", but a LAS file with the scale " +
+                        number_text(scale_[axis]) + " and the offset " +
+                        number_text(offset_[axis]) + " reaches only " +
+                        number_text(std::abs(kMost * scale_[axis])) +
+                        " m from it, and has no place for what is not finite. Nothing was changed; "
+                        "write .pcd or .npy.");
+      }
+      const auto number = static_cast<std::int32_t>(steps);
+      std::memcpy(to + 4 * axis, &number, sizeof number);
+      least_[axis] = std::min(least_[axis], steps);
+      most_[axis] = std::max(most_[axis], steps);
+    }
+  }
+
+  /// Writes scale, offset and the bounds of what was encoded into the head of a LAS file.
+  void put_into(std::string& head) const {
+    const auto put = [&](std::size_t at, double number) {
+      std::memcpy(head.data() + at, &number, sizeof number);
     };
-    if (steps(least) < kMost && steps(most) < kMost) {
-      offset_ = notes->offset;
-      return;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto place = static_cast<std::size_t>(8 * axis);
+      put(131 + place, scale_[axis]);
+      put(155 + place, offset_[axis]);
+      if (least_[axis] > most_[axis]) continue;
+      const double a = least_[axis] * scale_[axis] + offset_[axis];
+      const double b = most_[axis] * scale_[axis] + offset_[axis];
+      put(179 + 2 * place, std::max(a, b));
+      put(187 + 2 * place, std::min(a, b));
     }
   }
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double reach = std::max(std::abs(least[axis]), std::abs(most[axis]));
-    const bool far = reach > std::min(kFar, 0.5 * kMost * std::abs(scale_[axis]));
-    if (far) offset_[axis] = std::floor(least[axis]);
-  }
-}
 
-void LasGrid::encode(const Eigen::Vector3d& place, std::uint64_t point, char* to) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double steps = std::nearbyint((place[axis] - offset_[axis]) / scale_[axis]);
-    if (!(std::abs(steps) <= kMost)) {
-      throw DataError(where_ + ": point " + grouped_text(point) + " has " + "xyz"[axis] + " = " +
-                      number_text(place[axis]) + ", but a LAS file with the scale " +
-                      number_text(scale_[axis]) + " and the offset " + number_text(offset_[axis]) +
-                      " reaches only " + number_text(std::abs(kMost * scale_[axis])) +
-                      " m from it, and has no place for what is not finite. Nothing was changed; "
-                      "write .pcd or .npy.");
-    }
-    const auto number = static_cast<std::int32_t>(steps);
-    std::memcpy(to + 4 * axis, &number, sizeof number);
-    least_[axis] = std::min(least_[axis], steps);
-    most_[axis] = std::max(most_[axis], steps);
-  }
-}
-
-void LasGrid::put_into(std::string& head) const {
-  const auto put = [&](std::size_t at, double number) {
-    std::memcpy(head.data() + at, &number, sizeof number);
-  };
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const auto place = static_cast<std::size_t>(8 * axis);
-    put(131 + place, scale_[axis]);
-    put(155 + place, offset_[axis]);
-    if (least_[axis] > most_[axis]) continue;
-    const double a = least_[axis] * scale_[axis] + offset_[axis];
-    const double b = most_[axis] * scale_[axis] + offset_[axis];
-    put(179 + 2 * place, std::max(a, b));
-    put(187 + 2 * place, std::min(a, b));
-  }
-}
+ private:
+  std::string where_;
+  Eigen::Vector3d scale_ = Eigen::Vector3d::Constant(0.001);
+  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
+  Eigen::Array3d least_, most_;  ///< Of the numbers; least > most if there are none.
+};
 
 constexpr std::size_t kHeadBytes = 375, kRecordHead = 54;
 
@@ -149,9 +141,7 @@ std::string variable_record(std::string_view user, std::uint16_t id, std::string
 class LasEncoder : public RecordEncoder {
  public:
   LasEncoder(const std::filesystem::path& path, const RecordWriting& writing)
-      : path_(path), intensity_scale_(writing.intensity_scale) {
-    if (writing.crs) reference_system_ = reference_system_text(*writing.crs);
-  }
+      : path_(path), intensity_scale_(writing.intensity_scale) {}
 
   void start(const PointRecords& first) override {
     layout_ = first.layout;
@@ -166,7 +156,6 @@ class LasEncoder : public RecordEncoder {
     const LasNotes* notes = first.las.get();
     grid_.emplace(path_.string(), first, notes);
     if (notes != nullptr) gps_standard_ = notes->standard_gps_time;
-    if (notes != nullptr && reference_system_.empty()) reference_system_ = notes->reference_system;
     records_ = variable_records(notes);
   }
 
@@ -203,8 +192,8 @@ class LasEncoder : public RecordEncoder {
  private:
   std::string variable_records(const LasNotes* notes) {
     std::string records;
-    if (!reference_system_.empty()) {
-      records += variable_record("LASF_Projection", 2112, reference_system_ + '\0');
+    if (notes != nullptr && !notes->reference_system.empty()) {
+      records += variable_record("LASF_Projection", 2112, notes->reference_system + '\0');
       ++record_count_;
     }
     std::string descriptions;
@@ -292,7 +281,6 @@ class LasEncoder : public RecordEncoder {
 
   std::filesystem::path path_;
   double intensity_scale_;
-  std::string reference_system_;
   RecordLayout layout_;
   LasMapping mapping_;
   PositionFields position_;

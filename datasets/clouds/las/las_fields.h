@@ -3,11 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "datasets/clouds/format/cloud_format.h"
 #include "datasets/records/point_records.h"
 
 namespace raymoval {
@@ -88,5 +92,22 @@ std::vector<ExtraField> read_extra_fields(std::string_view descriptions, std::si
 ///   offset, text and so on are taken over if the type is the same; the bounds are not
 std::string extra_description(const PointField& field, const std::string& name,
                               const std::string& known);
+
+/// Writes LAS 1.4: point format 6, with colours 7, with near infrared 8.
+///
+/// A field whose name and type LAS has goes where LAS has it (a smaller whole type also); every
+/// other one becomes a field of the extra bytes. Besides, real intensities are written rounded (see
+/// `RecordWriting::intensity_scale`) where viewers look, and colours that are packed in one number
+/// likewise. Coordinates are whole multiples of a scale from an offset: those of the LAS file that
+/// the first points come from, else 0.001 m and a place near the first points. A reference
+/// system that that file says as WKT is said again.
+std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
+                                           const RecordWriting& writing);
+
+/// As `shown_intensity`.
+std::optional<ShownIntensity> shown_in_las(const RecordLayout& layout);
+
+/// As `what_is_lost`.
+std::vector<std::string> lost_in_las(const RecordLayout& layout);
 
 }  // namespace raymoval

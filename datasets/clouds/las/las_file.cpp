@@ -2,7 +2,6 @@
 #include <cstring>
 
 #include "datasets/clouds/format/stored_points.h"
-#include "datasets/clouds/las/las_encoder.h"
 #include "datasets/clouds/las/las_fields.h"
 #include "datasets/clouds/las/las_head.h"
 
@@ -81,7 +80,6 @@ PointRecords read_las_records(const CloudBytes& file) {
 
 CloudFormat las_format() {
   CloudFormat format{".las", read_las_cloud, read_las_records, las_encoder, lost_in_las};
-  format.holds_reference_system = true;
   format.shown_intensity = shown_in_las;
   return format;
 }

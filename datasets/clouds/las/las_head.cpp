@@ -8,13 +8,12 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/clouds/format/cloud_header.h"
-#include "datasets/clouds/las/reference_system.h"
 
 namespace raymoval {
 namespace {
 
 constexpr std::uint64_t kRecordHeadBytes = 54, kExtendedHead = 60;
-constexpr std::uint16_t kExtraBytesId = 4, kWktId = 2112, kGeoKeysId = 34735;
+constexpr std::uint16_t kExtraBytesId = 4, kWktId = 2112;
 
 class LasHeadReader {
  public:
@@ -125,20 +124,6 @@ class LasHeadReader {
     if (user != "LASF_Projection") return;
     std::string& system = head_.notes->reference_system;
     if (id == kWktId) system = content.substr(0, content.find('\0'));
-    if (id == kGeoKeysId && system.empty()) system = from_geo_keys(content);
-  }
-
-  /// The WKT of the projected system that GeoTIFF keys name, if it is known.
-  static std::string from_geo_keys(std::string_view keys) {
-    constexpr std::uint16_t kProjectedSystem = 3072;
-    for (std::size_t key = 8; key + 8 <= keys.size(); key += 8) {
-      std::uint16_t values[4];  // Key, where its value stands, count, value.
-      std::memcpy(values, keys.data() + key, sizeof values);
-      if (values[0] == kProjectedSystem && values[1] == 0) {
-        return epsg_text(values[3]).value_or("");
-      }
-    }
-    return "";
   }
 
   void read_points() {

@@ -12,41 +12,30 @@
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
-#include "datasets/inspection/evidence/pair_fit.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval::inspection {
 namespace {
 
-std::string extent_text(const Samples& samples) {
-  return fmt::format("half of the points lie more than {} from the middle of their scan",
-                     fixed_text(samples.median_range(), 0));
-}
-
-std::string extent_in(const Samples& samples, double unit) {
-  return fixed_text(samples.median_range() * unit, 1) + " m";
-}
-
 std::vector<Finding> look_for_millimetres(Samples& samples) {
-  samples.measures.emplace_back("median_extent_m", samples.median_range());
-  if (samples.point_scale() != kMillimetre) return {};
-  Finding finding{.where = "points of all scans read",
-                  .what = extent_text(samples) + "; taken as millimetres that is " +
-                          extent_in(samples, kMillimetre)};
-  if (samples.point_unit_is_open) {
-    finding.what += ", as centimetres " + extent_in(samples, kCentimetre);
+  const double extent = samples.median_range();
+  samples.measures.emplace_back("median_extent_m", extent);
+  if (samples.point_scale() == 1.0) return {};
+  Finding finding{
+      .where = "points of all scans read",
+      .what = fmt::format("half of the points lie more than {} from the middle of their scan; "
+                          "taken as millimetres that is {} m",
+                          fixed_text(extent, 0), fixed_text(0.001 * extent, 1))};
+  // Hardly a sensor has half of its returns beyond so many metres, which speaks against
+  // centimetres.
+  constexpr double kFarthestUsual = 100.0;
+  if (0.01 * extent < kFarthestUsual) {
+    finding.what += ", as centimetres " + fixed_text(0.01 * extent, 1) + " m";
     finding.remedy =
         "Multiply the coordinates by 0.001 if they are millimetres, by 0.01 if they are "
         "centimetres.";
   }
   return {finding};
-}
-
-std::vector<Finding> look_for_centimetres(Samples& samples) {
-  if (samples.point_scale() != kCentimetre) return {};
-  return {{.where = "points of all scans read",
-           .what = extent_text(samples) + "; taken as centimetres that is " +
-                   extent_in(samples, kCentimetre) + ", and the scans agree under the poses"}};
 }
 
 /// True of most drivers' files, and nothing has to be done: readers leave such points out.
@@ -231,8 +220,6 @@ std::vector<Check> point_checks() {
   return {
       {"points-in-millimetres", "points are millimetres", "metres",
        "Multiply the coordinates by 0.001.", look_for_millimetres, Consequence::kRefused},
-      {"points-in-centimetres", "points are centimetres", "metres",
-       "Multiply the coordinates by 0.01.", look_for_centimetres, Consequence::kRefused},
       {"left-out",
        "points are no returns (NaN or at the origin), or of the own vehicle (--drop-ego), and no "
        "method sees them",

@@ -185,11 +185,6 @@ std::vector<Check> pose_checks() {
           "--pose-format tum if it is the last. Else reorder the columns."),
       verdict_check("poses-in-millimetres", "positions of the poses are millimetres", "metres",
                     "Divide the positions by 1,000."),
-      verdict_check("poses-in-kilometres", "positions of the poses are kilometres", "metres",
-                    "Multiply the positions by 1,000."),
-      verdict_check("points-in-feet", "points are feet while the poses are metres", "metres",
-                    "Multiply the coordinates by 0.3048. If they are metres all the same, multiply "
-                    "the positions of the poses by 3.2808."),
       verdict_check("poses-coarse", "positions far from the origin lost their digits",
                     "positions to the millimetre",
                     "Write positions with all their digits (in C++ std::setprecision(12)), or "

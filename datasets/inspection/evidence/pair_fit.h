@@ -97,21 +97,6 @@ class PairFit {
   std::vector<Pose> motions_;  ///< Where it is reached, by pair.
 };
 
-/// Metres of the units that points are taken for.
-inline constexpr double kMillimetre = 0.001, kCentimetre = 0.01, kFoot = 0.3048;
-
-/// The share of the best agreement of the scans that the given poses reach if one of the stored
-/// points' unit is `unit` metres; 0 if most pairs of scans show too little of the same.
-double share_in_unit(const Samples& samples, double unit);
-
-/// Whether a share is that of right poses and a right unit, and `other` that of another unit.
-bool tells_unit(double share, double other);
-
-/// If half of the points lie farther away than metres can be, takes them as millimetres or as
-/// centimetres: as that under which the scans agree by far better. Where they do not tell,
-/// `point_unit_is_open` is set, and the points are taken as millimetres.
-void settle_point_unit(Samples& samples);
-
 /// Whether the sensor turns by about the angles that its poses turn by, about whatever axis. This
 /// does not depend on how the sensor is turned on the body that has the poses.
 bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen);

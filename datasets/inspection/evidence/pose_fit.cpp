@@ -19,9 +19,6 @@ namespace {
 /// Share of the best agreement that good poses reach; a drift of 10 cm between the scans of a pair
 /// stays above it.
 constexpr double kGood = 0.65;
-/// Share from which on even the unit of the points is beyond doubt: scans in feet agree to 0.2 to
-/// 0.8 under poses in metres, by the ground alone.
-constexpr double kUnquestioned = 0.9;
 /// Share that a hypothesis must reach, and by how much it has to beat the given poses.
 constexpr double kNamed = 0.65;
 constexpr double kBetter = 0.15;
@@ -213,21 +210,6 @@ double position_step(const std::vector<Pose>& poses) {
   return found;
 }
 
-/// Whether the points are feet, under which the scans agree far better than under metres. Turns
-/// that are wrong move less in a smaller scene, and less still in one of half that size; only a
-/// wrong unit is at its best at feet.
-std::optional<PoseVerdict> feet_verdict(Samples& samples, double given) {
-  if (samples.point_scale() != 1.0) return std::nullopt;
-  const double feet = share_in_unit(samples, kFoot);
-  samples.measures.emplace_back("agreement_in_feet", feet);
-  if (!tells_unit(feet, given) || !tells_unit(feet, share_in_unit(samples, kFoot / 2.0))) {
-    return std::nullopt;
-  }
-  return PoseVerdict{"points-in-feet", "the scans agree to " + percent(given) +
-                                           " under the poses and to " + percent(feet) +
-                                           " if the points are feet"};
-}
-
 PoseVerdict compare_hypotheses(Samples& samples) {
   if (samples.pairs().empty()) return {};
   PairFit fit(samples);
@@ -236,8 +218,6 @@ PoseVerdict compare_hypotheses(Samples& samples) {
   double given = fit.share(given_pose);
   samples.measures.emplace_back("agreement", fit.mean_best());
   samples.measures.emplace_back("agreement_of_given_poses", given);
-  if (fit.says_something() && given >= kUnquestioned) return {};
-  if (auto feet = feet_verdict(samples, given)) return *feet;
   if (fit.says_something() && given >= kGood) return {};
 
   const std::vector<PoseHypothesis> hypotheses = pose_hypotheses(samples);

@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Metres from scan to scan that no vehicle goes, also if one scan a second is kept, and that a
-/// moving one always exceeds: beyond them other units are worth a thought.
-constexpr double kTooFast = 50.0, kTooSlow = 0.02;
+/// Metres from scan to scan that no vehicle goes, also if one scan a second is kept: beyond them
+/// another unit is worth a thought.
+constexpr double kTooFast = 50.0;
 
 double longest_step(const std::vector<Pose>& poses) {
   double longest = 0.0;
@@ -26,12 +26,6 @@ double longest_step(const std::vector<Pose>& poses) {
     longest = std::max(longest, (poses[i].translation() - poses[i - 1].translation()).norm());
   }
   return longest;
-}
-
-Pose scaled(const Pose& pose, double scale) {
-  Pose result = pose;
-  result.translation() *= scale;
-  return result;
 }
 
 Pose with_rotation(const Pose& pose, const Matrix3d& rotation) {
@@ -118,14 +112,13 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
   add_frame_hypotheses(poses, camera_of(samples), all);
   add_world_hypotheses(samples, all);
   const bool quaternions = have_quaternions(samples);
-  const double step = longest_step(poses);
-  if (step > kTooFast) {
-    all.push_back({"poses-in-millimetres", "if positions are divided by 1,000",
-                   [&poses](std::size_t i) { return scaled(poses[i], 0.001); }});
-  }
-  if (step < kTooSlow) {
-    all.push_back({"poses-in-kilometres", "if positions are multiplied by 1,000",
-                   [&poses](std::size_t i) { return scaled(poses[i], 1000.0); }});
+  if (longest_step(poses) > kTooFast) {
+    all.push_back(
+        {"poses-in-millimetres", "if positions are divided by 1,000", [&poses](std::size_t i) {
+           Pose pose = poses[i];
+           pose.translation() *= 0.001;
+           return pose;
+         }});
   }
   for (const bool w_first : {true, false}) {
     if (w_first == samples.layout().points_in_world || !quaternions) continue;

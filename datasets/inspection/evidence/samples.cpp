@@ -28,6 +28,7 @@ Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel)
   choose_pairs();
   read_scans(cancel);
   measure_range();
+  settle_point_unit();
 }
 
 void Samples::choose_pairs() {
@@ -70,13 +71,14 @@ void Samples::measure_range() {
   median_range_ = median(std::move(ranges));
 }
 
-void Samples::set_point_scale(double scale) {
-  point_scale_ = scale;
+void Samples::settle_point_unit() {
+  // No sensor on the ground has half of its returns beyond so many metres.
+  constexpr double kFarthestMedian = 400.0;
+  if (median_range_ < kFarthestMedian) return;
+  point_scale_ = 0.001;
   for (auto& [index, scan] : scans_) {
-    for (Eigen::Vector3f& point : scan.points) point *= static_cast<float>(scale);
+    for (Eigen::Vector3f& point : scan.points) point *= static_cast<float>(point_scale_);
   }
-  surfels_.clear();
-  seen_sensor_.reset();
 }
 
 const std::vector<Surfel>& Samples::surfels(std::size_t scan) const {

@@ -43,10 +43,9 @@ class Samples {
   /// Scans that were read, by position. Points are metres (see `point_scale`).
   [[nodiscard]] const std::map<std::size_t, Scan>& scans() const { return scans_; }
   [[nodiscard]] const std::vector<ScanPair>& pairs() const { return pairs_; }
-  /// What the points were multiplied with to be metres: 1, or less for data in other units.
+  /// What the points were multiplied with to be metres: 1, or 0.001 where half of them lie farther
+  /// away than metres can be.
   [[nodiscard]] double point_scale() const { return point_scale_; }
-  /// Takes one of the stored points' unit as `scale` metres, once.
-  void set_point_scale(double scale);
   /// Half of the points lie farther from the middle of their scan, in the unit as stored.
   [[nodiscard]] double median_range() const { return median_range_; }
   /// Of any scan; one that is not among `scans` is read for it. @throws DataError as when reading
@@ -65,14 +64,13 @@ class Samples {
 
   /// The first check that needs it finds it.
   std::optional<PoseVerdict> pose_verdict;
-  /// Whether the points are millimetres or centimetres and the scans do not tell which.
-  bool point_unit_is_open = false;
   std::vector<std::pair<std::string, double>> measures;
 
  private:
   void choose_pairs();
   void read_scans(const std::atomic<bool>* cancel);
   void measure_range();
+  void settle_point_unit();
 
   const Sequence& sequence_;
   const Layout& layout_;

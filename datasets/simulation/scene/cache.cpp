@@ -47,23 +47,6 @@ std::string identity(const SimulationOptions& options, const simulated::NamedTex
   return hasher.digest();
 }
 
-/// Where a scene stands in the cache, and what makes it the one that is asked for.
-struct CachePlace {
-  std::string identity;
-  fs::path folder;
-};
-
-CachePlace place_of(const SimulationOptions& options, const fs::path& cache_root) {
-  const simulated::NamedText world = simulated::find_world(options.scene);
-  const simulated::WorldFile file = simulated::parse_world(world);
-  const simulated::NamedText sensor =
-      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
-  const std::size_t scans =
-      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
-  const std::string whole = identity(options, world, sensor, scans);
-  return {whole, cache_root / "simulated" / (world.name + "-" + whole.substr(0, 16))};
-}
-
 const char* set_variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0' ? value : nullptr;
@@ -71,7 +54,7 @@ const char* set_variable(const char* name) {
 
 /// A scene that has a place in the cache.
 struct CachedScene {
-  const simulated::SceneWriting& writing;
+  simulated::SceneWriting writing;
   fs::path folder;
   bool check_content = true;
 
@@ -85,6 +68,21 @@ struct CachedScene {
     if (writing.progress != nullptr) writing.progress->say(line);
   }
 };
+
+/// @param writing its identity is worked out here
+CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing,
+                     bool check_content) {
+  const SimulationOptions& options = writing.options;
+  const simulated::NamedText world = simulated::find_world(options.scene);
+  const simulated::WorldFile file = simulated::parse_world(world);
+  const simulated::NamedText sensor =
+      simulated::find_sensor(options.sensor.empty() ? file.sensor : options.sensor);
+  const std::size_t scans =
+      options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
+  writing.identity = identity(options, world, sensor, scans);
+  const std::string name = world.name + "-" + writing.identity.substr(0, 16);
+  return {std::move(writing), cache_root / "simulated" / name, check_content};
+}
 
 /// Waits until the lock is held. Without locks on the file system nobody is waited for: two may
 /// make the scene, and one takes its place.
@@ -152,9 +150,8 @@ fs::path default_cache_root() {
 fs::path cached_simulation(const SimulationOptions& options, const fs::path& cache_root,
                            int threads, Progress* progress, const std::atomic<bool>* cancel,
                            bool check_content) {
-  const CachePlace place = place_of(options, cache_root);
-  const simulated::SceneWriting writing{options, place.identity, threads, progress, cancel};
-  const CachedScene scene{writing, place.folder, check_content};
+  const CachedScene scene =
+      scene_in(cache_root, {options, "", threads, progress, cancel}, check_content);
   if (has_folder(scene.folder)) {
     const std::string problem = scene.problem();
     if (problem.empty()) {
@@ -169,9 +166,7 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
 }
 
 bool is_cached(const SimulationOptions& options, const fs::path& cache_root) {
-  const CachePlace place = place_of(options, cache_root);
-  return has_folder(place.folder) &&
-         simulated::scene_folder_problem(place.folder, place.identity, false, 1).empty();
+  return scene_in(cache_root, {options, ""}, false).is_whole();
 }
 
 }  // namespace raymoval

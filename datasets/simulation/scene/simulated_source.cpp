@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <array>
 #include <cmath>
-#include <mutex>
 
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/simulation/scene/library.h"
 #include "datasets/simulation/scene/simulated.h"
+#include "datasets/simulation/sensor/last_values.h"
 #include "datasets/simulation/sensor/pose_noise.h"
 #include "datasets/simulation/sensor/scanner.h"
 #include "datasets/simulation/world/world.h"
@@ -47,36 +46,6 @@ Pose sequence_frame(const SimulationOptions& options, const Pose& first) {
   result.linear() = (tilt * turn).toRotationMatrix();
   return result * levelled;
 }
-
-/// The last labels that were traced, so that asking for a scan and then its labels traces once.
-class LabelMemory {
- public:
-  void keep(std::size_t scan, std::vector<std::uint32_t> labels) {
-    const std::lock_guard lock(mutex_);
-    slots_[next_++ % kSlots] = {scan, true, std::move(labels)};
-  }
-  bool find(std::size_t scan, std::vector<std::uint32_t>& labels) const {
-    const std::lock_guard lock(mutex_);
-    for (const Slot& slot : slots_) {
-      if (slot.filled && slot.scan == scan) {
-        labels = slot.labels;
-        return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  static constexpr std::size_t kSlots = 8;
-  struct Slot {
-    std::size_t scan = 0;
-    bool filled = false;
-    std::vector<std::uint32_t> labels;
-  };
-  mutable std::mutex mutex_;
-  std::array<Slot, kSlots> slots_;
-  std::size_t next_ = 0;
-};
 
 class Simulation final : public SimulatedSequence {
  public:
@@ -137,8 +106,8 @@ class Simulation final : public SimulatedSequence {
 
   [[nodiscard]] std::vector<std::uint32_t> labels(const Scan& scan) const override {
     check(scan.index);
-    std::vector<std::uint32_t> labels;
-    if (!memory_.find(scan.index, labels)) labels = scanner_.sweep(scan.index).labels;
+    const auto kept = memory_.find(scan.index);
+    std::vector<std::uint32_t> labels = kept ? *kept : scanner_.sweep(scan.index).labels;
     if (labels.size() != scan.size()) {
       throw DataError(file_.name + ": scan " + std::to_string(scan.index) + " has " +
                       grouped_text(labels.size()) + " points, but labels were asked for one of " +
@@ -175,7 +144,7 @@ class Simulation final : public SimulatedSequence {
   Scanner scanner_;
   Pose anchor_;
   std::vector<Pose> errors_;
-  mutable LabelMemory memory_;
+  mutable simulated::LastValues<std::vector<std::uint32_t>> memory_{8};  ///< Labels.
 };
 
 }  // namespace

@@ -92,16 +92,12 @@ void add_balcony(Mesh& mesh, double x, double y, double z) {
   add_box(mesh, steel, {x - 1.3, y - 1.12, z + 1.05}, {x + 1.3, y - 1.06, z + 1.1});
 }
 
-double built(double wished, Random& random, double low, double high) {
-  return wished > 0.0 ? wished * random.between(0.96, 1.04) : random.between(low, high);
-}
-
 }  // namespace
 
 Mesh make_block(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = built(spec.length_m, random, 11.0, 18.0);
-  const double depth = built(spec.width_m, random, 9.0, 12.0);
+  const double length = varied(spec.length_m, 0.04, random, 11.0, 18.0);
+  const double depth = varied(spec.width_m, 0.04, random, 9.0, 12.0);
   const Paint wall{random.chance(0.6) ? Material::kPlaster : Material::kBrick, kLabelBuilding};
   Front f;
   f.x0 = -0.5 * length;
@@ -126,8 +122,8 @@ Mesh make_block(const PartSpec& spec, Random& random) {
 
 Mesh make_house(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = built(spec.length_m, random, 9.0, 13.0);
-  const double depth = built(spec.width_m, random, 8.0, 10.0);
+  const double length = varied(spec.length_m, 0.04, random, 9.0, 13.0);
+  const double depth = varied(spec.width_m, 0.04, random, 8.0, 10.0);
   const Paint wall{random.chance(0.7) ? Material::kPlaster : Material::kBrick, kLabelBuilding};
   Front f{-0.5 * length,
           0.5 * length,
@@ -157,7 +153,7 @@ Mesh make_house(const PartSpec& spec, Random& random) {
 
 Mesh make_garage(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = built(spec.length_m, random, 3.2, 6.2);
+  const double length = varied(spec.length_m, 0.04, random, 3.2, 6.2);
   const Paint wall{Material::kPlaster, kLabelBuilding};
   const double h = 0.5 * length;
   add_box(mesh, wall, {-h, 0.0, -0.5}, {-h + 0.3, 6.0, 2.5});

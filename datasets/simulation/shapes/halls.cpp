@@ -8,10 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-double size_or(double wished, double usual) {
-  return wished > 0.0 ? wished : usual;
-}
-
 }  // namespace
 
 Mesh make_stall(const PartSpec& spec, Random& random) {

@@ -15,15 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-double chosen(double wished, Random& random, double low, double high) {
-  return wished > 0.0 ? wished * random.between(0.95, 1.05) : random.between(low, high);
-}
-
 /// Pickets with gaps between two rails.
 Mesh fence(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = spec.length_m > 0.0 ? spec.length_m : 4.0;
-  const double height = chosen(spec.height_m, random, 1.1, 1.4);
+  const double length = size_or(spec.length_m, 4.0);
+  const double height = varied(spec.height_m, 0.05, random, 1.1, 1.4);
   const Paint wood{Material::kWood, kLabelFence};
   for (double x = 0.0; x < length; x += 0.16) {
     add_box(mesh, wood, {x, 0.0, 0.06}, {x + 0.08, 0.025, height * random.between(0.97, 1.03)});
@@ -37,8 +33,8 @@ Mesh fence(const PartSpec& spec, Random& random) {
 
 Mesh wall(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = spec.length_m > 0.0 ? spec.length_m : 5.0;
-  const double height = chosen(spec.height_m, random, 0.9, 1.6);
+  const double length = size_or(spec.length_m, 5.0);
+  const double height = varied(spec.height_m, 0.05, random, 0.9, 1.6);
   const Paint brick{Material::kBrick, kLabelFence};
   add_box(mesh, brick, {0.0, 0.0, -0.5}, {length, 0.24, height});
   add_box(mesh, brick, {-0.05, -0.06, -0.5}, {0.35, 0.3, height + 0.15});
@@ -47,7 +43,7 @@ Mesh wall(const PartSpec& spec, Random& random) {
 
 Mesh guardrail(const PartSpec& spec, Random&) {
   Mesh mesh;
-  const double length = spec.length_m > 0.0 ? spec.length_m : 4.0;
+  const double length = size_or(spec.length_m, 4.0);
   const Paint steel{Material::kMetal, kLabelFence};
   add_box(mesh, steel, {0.0, 0.0, 0.48}, {length, 0.04, 0.60});
   add_box(mesh, steel, {0.0, -0.03, 0.62}, {length, 0.04, 0.75});
@@ -57,7 +53,7 @@ Mesh guardrail(const PartSpec& spec, Random&) {
 
 Mesh lamp_post(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double height = chosen(spec.height_m, random, 6.0, 8.0);
+  const double height = varied(spec.height_m, 0.05, random, 6.0, 8.0);
   const Paint pole{Material::kMetal, kLabelPole};
   add_tube(mesh, pole, {0, 0, -0.3}, {0, 0, height}, 0.10, 0.06, 9);
   add_tube(mesh, pole, {0, 0, height - 0.1}, {0, -1.6, height + 0.1}, 0.04, 0.04, 6);
@@ -67,7 +63,7 @@ Mesh lamp_post(const PartSpec& spec, Random& random) {
 
 Mesh sign(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double height = chosen(spec.height_m, random, 2.3, 2.8);
+  const double height = varied(spec.height_m, 0.05, random, 2.3, 2.8);
   add_tube(mesh, {Material::kMetal, kLabelPole}, {0, 0, -0.3}, {0, 0, height}, 0.035, 0.035, 7);
   add_tube(mesh, {Material::kSign, kLabelTrafficSign}, {-0.04, 0, height - 0.3},
            {-0.055, 0, height - 0.3}, 0.32, 0.32, 14);
@@ -117,7 +113,7 @@ Mesh bollard(const PartSpec&, Random&) {
 
 Mesh container(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double l = chosen(spec.length_m, random, 5.8, 6.2);
+  const double l = varied(spec.length_m, 0.05, random, 5.8, 6.2);
   const Paint paint{Material::kBrightPaint, kLabelOtherStructure};
   add_box(mesh, paint, {-0.5 * l, 0, -0.1}, {0.5 * l, 2.44, 2.6});
   for (double x = -0.5 * l + 0.2; x < 0.5 * l - 0.2; x += 0.4) {  // ribs
@@ -129,8 +125,8 @@ Mesh container(const PartSpec& spec, Random& random) {
 /// A spoil heap: a rough cone.
 Mesh heap(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double radius = 0.5 * chosen(spec.width_m, random, 5.0, 9.0);
-  const double height = chosen(spec.height_m, random, 1.6, 2.8);
+  const double radius = 0.5 * varied(spec.width_m, 0.05, random, 5.0, 9.0);
+  const double height = varied(spec.height_m, 0.05, random, 1.6, 2.8);
   constexpr int kRings = 7;
   constexpr int kSides = 22;
   const Paint soil{Material::kSoil, kLabelTerrain};
@@ -160,9 +156,9 @@ Mesh heap(const PartSpec& spec, Random& random) {
 /// A road bridge across the row's road: a deck over it on two walls. Origin in the road's middle.
 Mesh bridge(const PartSpec& spec, Random&) {
   Mesh mesh;
-  const double span = spec.width_m > 0.0 ? spec.width_m : 30.0;
-  const double depth = spec.length_m > 0.0 ? spec.length_m : 9.0;
-  const double height = spec.height_m > 0.0 ? spec.height_m : 5.2;
+  const double span = size_or(spec.width_m, 30.0);
+  const double depth = size_or(spec.length_m, 9.0);
+  const double height = size_or(spec.height_m, 5.2);
   const Paint concrete{Material::kConcrete, kLabelOtherStructure};
   const double h = 0.5 * span;
   const double d = 0.5 * depth;

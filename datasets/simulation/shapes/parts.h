@@ -17,6 +17,17 @@ struct PartSpec {
   double height_m = 0.0;
 };
 
+/// A wished size, or the usual one.
+inline double size_or(double wished, double usual) {
+  return wished > 0.0 ? wished : usual;
+}
+
+/// A wished size that varies by a share of `spread`, or one between two others.
+inline double varied(double wished, double spread, Random& random, double low, double high) {
+  return wished > 0.0 ? wished * random.between(1.0 - spread, 1.0 + spread)
+                      : random.between(low, high);
+}
+
 /// Names that `make_part` knows.
 const std::vector<std::string>& part_names();
 

@@ -12,10 +12,6 @@ using Eigen::Vector3d;
 constexpr Paint kLeaves{Material::kLeaf, kLabelVegetation};
 constexpr Paint kBark{Material::kWood, kLabelTrunk};
 
-double grown(double wished, Random& random, double low, double high) {
-  return wished > 0.0 ? wished * random.between(0.85, 1.15) : random.between(low, high);
-}
-
 /// A branch from the stem to `tip` with leaves around its outer half.
 void add_branch(Mesh& mesh, const Vector3d& from, const Vector3d& tip, int leaves, Random& random) {
   add_tube(mesh, kLeaves, from, tip, 0.06, 0.02, 5);
@@ -30,8 +26,8 @@ void add_branch(Mesh& mesh, const Vector3d& from, const Vector3d& tip, int leave
 
 Mesh make_tree(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double height = grown(spec.height_m, random, 6.0, 10.0);
-  const double radius = 0.5 * grown(spec.width_m, random, 4.0, 6.5);
+  const double height = varied(spec.height_m, 0.15, random, 6.0, 10.0);
+  const double radius = 0.5 * varied(spec.width_m, 0.15, random, 4.0, 6.5);
   const double fork = height * random.between(0.28, 0.36);
   const double girth = 0.018 * height + 0.04;
   const double lean_y = 0.04 * random.normal(), lean_x = 0.04 * random.normal();
@@ -55,8 +51,8 @@ Mesh make_tree(const PartSpec& spec, Random& random) {
 
 Mesh make_conifer(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double height = grown(spec.height_m, random, 8.0, 14.0);
-  const double radius = 0.5 * grown(spec.width_m, random, 3.0, 4.5);
+  const double height = varied(spec.height_m, 0.15, random, 8.0, 14.0);
+  const double radius = 0.5 * varied(spec.width_m, 0.15, random, 3.0, 4.5);
   add_tube(mesh, kBark, {0, 0, -0.4}, {0, 0, height}, 0.2, 0.03, 7);
   const int count = static_cast<int>(55.0 * radius * height / 4.0);
   for (int i = 0; i < count; ++i) {
@@ -71,9 +67,9 @@ Mesh make_conifer(const PartSpec& spec, Random& random) {
 
 Mesh make_hedge(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = spec.length_m > 0.0 ? spec.length_m : 4.0;
-  const double width = spec.width_m > 0.0 ? spec.width_m : 0.9;
-  const double height = grown(spec.height_m, random, 1.1, 1.7);
+  const double length = size_or(spec.length_m, 4.0);
+  const double width = size_or(spec.width_m, 0.9);
+  const double height = varied(spec.height_m, 0.15, random, 1.1, 1.7);
   add_box(mesh, kLeaves, {0.0, 0.3 * width, -0.3}, {length, 0.7 * width, 0.8 * height});
   const int count = static_cast<int>(length * height * 55.0);
   for (int i = 0; i < count; ++i) {
@@ -85,8 +81,8 @@ Mesh make_hedge(const PartSpec& spec, Random& random) {
 
 Mesh make_bush(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double radius = 0.5 * grown(spec.width_m, random, 1.2, 2.6);
-  const double height = grown(spec.height_m, random, 0.9, 2.0);
+  const double radius = 0.5 * varied(spec.width_m, 0.15, random, 1.2, 2.6);
+  const double height = varied(spec.height_m, 0.15, random, 0.9, 2.0);
   const int count = static_cast<int>(70.0 * radius * height);
   add_leaves(mesh, kLeaves, {0, 0, 0.5 * height}, {radius, radius, 0.55 * height}, 0.2, count,
              random);
@@ -95,9 +91,9 @@ Mesh make_bush(const PartSpec& spec, Random& random) {
 
 Mesh make_tall_grass(const PartSpec& spec, Random& random) {
   Mesh mesh;
-  const double length = spec.length_m > 0.0 ? spec.length_m : 4.0;
-  const double width = spec.width_m > 0.0 ? spec.width_m : 2.0;
-  const double height = spec.height_m > 0.0 ? spec.height_m : 0.4;
+  const double length = size_or(spec.length_m, 4.0);
+  const double width = size_or(spec.width_m, 2.0);
+  const double height = size_or(spec.height_m, 0.4);
   const int count = static_cast<int>(length * width * 9.0);
   for (int i = 0; i < count; ++i) {
     const double z = height * random.unit() * random.unit();

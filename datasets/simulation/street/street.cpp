@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -17,6 +14,7 @@
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/settings.h"
+#include "datasets/simulation/sensor/last_values.h"
 
 namespace raymoval {
 namespace {
@@ -179,34 +177,20 @@ class StreetScans : public ScanSource, public LabelSource {
   }
 
  private:
-  using Returns = std::shared_ptr<const std::vector<Return>>;
+  using Returns = std::vector<Return>;
 
   /// What the sensor sees in a frame. Casting takes longer than all else that is done with so small
   /// a scene, so the frames cast last are kept: at most 64, of 16 MiB.
-  [[nodiscard]] Returns returns_of(std::size_t frame) const {
-    constexpr std::size_t kMost = 64;
-    {
-      const std::lock_guard lock(mutex_);
-      const auto found = kept_.find(frame);
-      if (found != kept_.end()) return found->second;
-    }
-    auto returns = std::make_shared<const std::vector<Return>>(scene_.cast(frame));
-    const std::lock_guard lock(mutex_);
-    if (kept_.emplace(frame, returns).second) order_.push_back(frame);
-    if (order_.size() > kMost) {
-      kept_.erase(order_.front());
-      order_.pop_front();
-    }
-    return returns;
+  [[nodiscard]] std::shared_ptr<const Returns> returns_of(std::size_t frame) const {
+    const auto kept = kept_.find(frame);
+    return kept ? kept : kept_.keep(frame, scene_.cast(frame));
   }
 
   StreetScene scene_;
   std::vector<std::size_t> frames_;
   SensorModel ideal_;
   std::unique_ptr<SensorChoice> choice_;  ///< Where the user asks for another sensor.
-  mutable std::mutex mutex_;              ///< Of the two below.
-  mutable std::map<std::size_t, Returns> kept_;
-  mutable std::deque<std::size_t> order_;  ///< The frames in `kept_`, those cast first in front.
+  mutable simulated::LastValues<Returns> kept_{64};
 };
 
 void check_parameters(const StreetParameters& p) {

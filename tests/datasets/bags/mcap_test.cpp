@@ -45,18 +45,14 @@ TEST_CASE("A false byte in a MCAP file never gives a message that was not publis
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
     const auto path = folder.write("damaged_" + std::to_string(at) + ".mcap", damaged);
-    try {
+    test::may_refuse([&] {
       const auto bag = open_bag(path);
-      for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {
-        for (std::size_t i = 0; i < bag->topics()[topic].messages; ++i) {
-          const std::string text = bag->message(topic, i);
-          CAPTURE(at);
-          CHECK((text.substr(4).starts_with("po") || text.empty()));
-        }
-      }
-    } catch (const DataError& error) {
-      CHECK(std::string(error.what()).size() > 20);
-    }
+      test::for_each_message(*bag, [&](std::size_t topic, std::size_t i) {
+        const std::string text = bag->message(topic, i);
+        CAPTURE(at);
+        CHECK((text.substr(4).starts_with("po") || text.empty()));
+      });
+    });
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "datasets/bags/messages/point_cloud.h"
 #include "datasets/bags/messages/pose_messages.h"
+#include "tests/datasets/bags/recordings.h"
 #include "tests/datasets/bags/ros1_writer.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -18,32 +19,16 @@ const std::vector<std::string> kWrittenByRos = {"rosbag_none", "rosbag_bz2", "ro
 
 /// The bytes of a bag that ROS's own rosbag wrote, see make_ros1_bags.py.
 std::string written_by_ros(const std::string& name) {
-  return read_text(std::filesystem::path(RAYMOVAL_SOURCE_DIR) / "tests/fuzz/corpus/bag_ros1" /
-                   (name + ".bag"));
-}
-
-std::size_t topic_of(const Bag& bag, const std::string& name) {
-  for (std::size_t i = 0; i < bag.topics().size(); ++i) {
-    if (bag.topics()[i].name == name) return i;
-  }
-  return bag.topics().size();
-}
-
-std::uint64_t message_count(const Bag& bag) {
-  std::uint64_t count = 0;
-  for (const BagTopic& topic : bag.topics()) count += topic.messages;
-  return count;
+  return read_text(recording("bag_ros1/" + name + ".bag"));
 }
 
 /// All messages of a bag: topic, time, bytes.
 using AllMessages = std::vector<std::tuple<std::string, Nanoseconds, std::string>>;
 AllMessages all_messages(const Bag& bag) {
   AllMessages all;
-  for (std::size_t topic = 0; topic < bag.topics().size(); ++topic) {
-    for (std::size_t i = 0; i < bag.topics()[topic].messages; ++i) {
-      all.emplace_back(bag.topics()[topic].name, bag.recorded(topic, i), bag.message(topic, i));
-    }
-  }
+  for_each_message(bag, [&](std::size_t topic, std::size_t i) {
+    all.emplace_back(bag.topics()[topic].name, bag.recorded(topic, i), bag.message(topic, i));
+  });
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -70,7 +55,7 @@ TEST_CASE("Bags that ROS wrote are read with every compression", "[bags]") {
     const Ros1Bag bag(folder.write(name + ".bag", written_by_ros(name)));
     CHECK(bag.damage().empty());
     REQUIRE(bag.topics().size() == 2);
-    const std::size_t points = topic_of(bag, "/points"), odometry = topic_of(bag, "/odom");
+    const std::size_t points = topic_named(bag, "/points"), odometry = topic_named(bag, "/odom");
     CHECK(bag.topics()[points].type == "sensor_msgs/PointCloud2");
     CHECK(bag.topics()[points].encoding == MessageEncoding::kRos1);
     REQUIRE(bag.topics()[points].messages == 3);
@@ -122,8 +107,8 @@ TEST_CASE("Of a cut chunk that is packed, what comes before the cut is read", "[
   const std::string bytes = read_text(write_bag(folder, 1, 50, Ros1Compression::kNone));
   const auto path = folder.write("cut.bag", bytes.substr(0, 4117 + 1500));
   const Ros1Bag bag(path);
-  CHECK(message_count(bag) > 10);
-  CHECK(message_count(bag) < 50);
+  CHECK(all_messages(bag).size() > 10);
+  CHECK(all_messages(bag).size() < 50);
   check_says(join(bag.damage(), " "), {"cut.bag", "it is cut", "a chunk is cut", "can be read"});
 }
 
@@ -166,7 +151,7 @@ TEST_CASE("A message that the index places wrong is an error and no other messag
   const std::size_t second = bytes.find(std::string("ver=\1\0\0\0", 8), first) + 12;
   bytes.replace(first + 8, 4, bytes.substr(second + 8, 4));
   const Ros1Bag bag(folder.write("wrong.bag", bytes));
-  check_says(message_of<DataError>([&] { (void)bag.message(topic_of(bag, "/a"), 0); }),
+  check_says(message_of<DataError>([&] { (void)bag.message(topic_named(bag, "/a"), 0); }),
              {"wrong.bag", "another topic", "rosbag reindex"});
 }
 

@@ -28,20 +28,16 @@ TEST_CASE("A database that is cut at any byte is read as far as it goes", "[bags
   for (std::size_t size = whole.size() - 1; size > 122; size -= 122) {
     CAPTURE(size);
     std::filesystem::resize_file(path, size);
-    try {
+    test::may_refuse([&] {
       const auto bag = open_bag(path);
       CHECK_FALSE(bag->damage().empty());
-      for (std::size_t i = 0; i < bag->topics()[0].messages; ++i) {
-        try {
-          const std::string text = bag->message(0, i);
-          CHECK_THAT(text.substr(4), Catch::StartsWith("points "));
-        } catch (const DataError& error) {
-          CHECK(std::string(error.what()).size() > 20);
-        }
-      }
-    } catch (const DataError& error) {
-      CHECK(std::string(error.what()).size() > 20);
-    }
+      test::for_each_message(*bag, [&](std::size_t topic, std::size_t i) {
+        test::may_refuse([&] {
+          const std::string text = bag->message(topic, i).substr(4);
+          CHECK((text.starts_with("points ") || text.starts_with("pose ")));
+        });
+      });
+    });
   }
 }
 
@@ -51,21 +47,15 @@ TEST_CASE("A database whose pages contain each other does not hang", "[bags][ros
   for (std::size_t at = 100; at < whole.size(); at += 41) {
     std::string damaged = whole;
     for (std::size_t i = at; i < std::min(at + 4, damaged.size()); ++i) damaged[i] = 0x02;
-    try {
+    test::may_refuse([&] {
       const auto bag = open_bag(folder.write("damaged_" + std::to_string(at) + ".db3", damaged));
-      for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {
-        for (std::size_t i = 0; i < bag->topics()[topic].messages; ++i) {
-          try {
-            const std::string text = bag->message(topic, i);
-            CHECK(text.size() <= whole.size());
-          } catch (const DataError& error) {
-            CHECK(std::string(error.what()).size() > 20);
-          }
-        }
-      }
-    } catch (const DataError& error) {
-      CHECK(std::string(error.what()).size() > 20);
-    }
+      test::for_each_message(*bag, [&](std::size_t topic, std::size_t i) {
+        test::may_refuse([&] {
+          const std::string text = bag->message(topic, i);
+          CHECK(text.size() <= whole.size());
+        });
+      });
+    });
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Values of clouds: each number type, each rounding and each count at its bound, worked out by
 // hand.
+#include <algorithm>
 #include <catch2/catch.hpp>
-#include <functional>
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
@@ -19,6 +19,29 @@ std::string pcd_of(const std::string& size, const std::string& type, int points,
   const std::string count = std::to_string(points);
   return "FIELDS x y z\nSIZE " + size + " " + size + " " + size + "\nTYPE " + type + " " + type +
          " " + type + "\nWIDTH " + count + "\nHEIGHT 1\nDATA " + data + "\n";
+}
+
+/// A compressed cloud of `points` points x y z as float32.
+std::string compressed_pcd(int points, const std::string& stream) {
+  return pcd_of("4", "F", points, "binary_compressed") +
+         words({static_cast<std::uint32_t>(stream.size()), 12U * static_cast<unsigned>(points)}) +
+         stream;
+}
+
+/// `bytes` zeros, at least 10, in as few bytes as LZF can: a control byte below 32 is followed by
+/// that many bytes and one more; 0xE0, n and a zero repeat the last byte n + 9 times.
+std::string packed_zeros(std::size_t bytes) {
+  std::string stream(2, '\0');  // One zero as it is.
+  for (std::size_t left = bytes - 1; left > 0;) {
+    // What remains for the last repetition must not be below its least length.
+    std::size_t run = std::min<std::size_t>(left, 264);
+    if (left > run && left - run < 9) run = left - 9;
+    stream += '\xE0';
+    stream += static_cast<char>(run - 9);
+    stream += '\0';
+    left -= run;
+  }
+  return stream;
 }
 
 template <class Value>
@@ -122,15 +145,35 @@ TEST_CASE("a compressed block may be empty, and has two sizes before it", "[clou
   check_says(cloud_error("a.pcd", two), {"0 bytes follow", "needs 8"});
 }
 
+TEST_CASE("a compressed cloud may be as small as LZF can make it", "[cloud]") {
+  const std::string stream = packed_zeros(24000);
+  REQUIRE(stream.size() * 87 < 24000);  // 88 is the limit, and what is above it is damaged.
+  const TemporaryFolder folder;
+  const Cloud cloud = read_cloud(folder.write("zeros.pcd", compressed_pcd(2000, stream)));
+  REQUIRE(cloud.points.size() == 2000);
+  CHECK(cloud.points.front() == Eigen::Vector3f::Zero());
+  CHECK(cloud.points.back() == Eigen::Vector3f::Zero());
+}
+
+TEST_CASE("a compressed cloud that holds other bytes than it announces is damaged", "[cloud]") {
+  const TemporaryFolder folder;
+  // Two points take 24 bytes. The stream decodes without a fault.
+  const auto stream_of = [](int bytes) {
+    return static_cast<char>(bytes - 1) + std::string(std::size_t(bytes), 'a');
+  };
+  for (const int bytes : {12, 23, 25}) {
+    check_says(cloud_error("a.pcd", compressed_pcd(2, stream_of(bytes))), {"damaged"});
+  }
+  const std::string whole = compressed_pcd(2, stream_of(24));
+  CHECK(read_cloud(folder.write("whole.pcd", whole)).points.size() == 2);
+  check_says(cloud_error("cut.pcd", whole.substr(0, whole.size() - 1)), {"truncated"});
+}
+
 TEST_CASE("a block that announces more than LZF can give is not decoded at all", "[cloud]") {
   // A megabyte as it is would be written far beyond what was set aside.
   std::string stream;
   for (int i = 0; i < 1 << 15; ++i) stream += "\x1F" + std::string(32, 'a');
-  check_says(
-      cloud_error("a.pcd", pcd_of("4", "F", 357913940, "binary_compressed") +
-                               words({static_cast<std::uint32_t>(stream.size()), 4294967280U}) +
-                               stream),
-      {"damaged"});
+  check_says(cloud_error("a.pcd", compressed_pcd(357913940, stream)), {"damaged"});
 }
 
 TEST_CASE("an unknown ending of a cloud's name is told with those there are", "[cloud]") {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Poses, times and frame numbers at the bounds of what is taken.
+// Poses and times at the bounds of what is taken.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/clouds/frames.h"
 #include "datasets/clouds/poses.h"
 #include "datasets/trajectories/pose_file.h"
 #include "datasets/trajectories/stamps.h"
@@ -18,12 +17,6 @@ std::string tum_says(const std::string& content) {
   const TemporaryFolder folder;
   const auto path = folder.write("poses.txt", content);
   return message_of<DataError>([&] { read_pose_file(path); });
-}
-
-std::vector<NumberedFile> with_gap() {
-  std::vector<NumberedFile> files;
-  for (const long number : {0, 1, 3, 4}) files.push_back({number, {}});
-  return files;
 }
 
 }  // namespace
@@ -84,83 +77,4 @@ TEST_CASE("a column of numbers is finite and may begin with a carriage return", 
     check_says(message_of<DataError>([&] { read_stamp_file(path); }),
                {"line 2", "expected a time"});
   }
-}
-
-TEST_CASE("digits are 0 to 9, and leading zeros do not count", "[frames]") {
-  CHECK(natural_less("9", "10"));
-  CHECK_FALSE(natural_less("10", "9"));
-  CHECK(natural_less("01", "2"));
-  CHECK(natural_less("002", "03"));
-  CHECK(natural_less("2abc", "10"));
-  CHECK(natural_less("az", "b"));
-  CHECK(natural_less("a10", "a:"));  // ':' follows '9'.
-  CHECK_FALSE(natural_less("a:", "a10"));
-  CHECK_FALSE(natural_less("a.", "a--"));
-  CHECK_FALSE(natural_less("b", "ab"));
-  CHECK_FALSE(natural_less("ab", "a"));
-  CHECK_FALSE(natural_less("", ""));
-  CHECK(natural_less("", "a"));
-  CHECK(natural_less("1", "a"));
-  CHECK_FALSE(natural_less("a", "1"));
-  CHECK(natural_less("a01", "a1"));  // Nothing but the zeros differs.
-}
-
-TEST_CASE("the frame 0 alone is told how to be a range", "[frames]") {
-  check_says(message_of<UsageError>([] { parse_frame_range("0"); }), {"A single frame is 0:0."});
-  CHECK(parse_frame_range("0:0:1").last == 0);
-  check_says(message_of<UsageError>([] { parse_frame_range("1:2:0"); }),
-             {"stride '0'", "from 1 on"});
-  check_says(message_of<UsageError>([] { parse_frame_range("-1:2"); }),
-             {"first '-1'", "from 0 on"});
-}
-
-TEST_CASE("a gap is an error with either end of the range given", "[frames]") {
-  for (const char* range : {"0:", ":4", "1:", ":3", "1:3"}) {
-    const auto says =
-        message_of<DataError>([&] { choose_frames(with_gap(), parse_frame_range(range), "d"); });
-    check_says(says, {"no file for frame 2", "4 frames from 0 to 4"});
-  }
-  CHECK(choose_frames(with_gap(), parse_frame_range("3:"), "d").files.size() == 2);
-  CHECK(choose_frames(with_gap(), parse_frame_range(":1"), "d").files.size() == 2);
-  CHECK(choose_frames(with_gap(), parse_frame_range("3:3"), "d").files.size() == 1);
-}
-
-TEST_CASE("a range beyond either end reaches outside the data", "[frames]") {
-  const std::vector<NumberedFile> files = {{3, {}}, {4, {}}, {5, {}}};
-  for (const char* range : {"2:4", "4:6", "6:", ":2"}) {
-    check_says(message_of<DataError>([&] { choose_frames(files, parse_frame_range(range), "d"); }),
-               {"reaches outside the data"});
-  }
-}
-
-TEST_CASE("a stride without ends takes what there is, also where it steps over the last one",
-          "[frames]") {
-  const std::vector<NumberedFile> files = {{0, {}}, {1, {}}, {2, {}}, {7, {}}};
-  const ChosenFrames chosen = choose_frames(files, parse_frame_range("::2"), "d");
-  REQUIRE(chosen.files.size() == 2);
-  CHECK(chosen.files[1].number == 2);
-  CHECK(frame_range_text(chosen.range) == "0:7:2");
-}
-
-TEST_CASE("frame numbers are not below 0", "[frames]") {
-  const TemporaryFolder folder;
-  folder.write("0.bin", "x");
-  CHECK(list_numbered_files(folder.path(), ".bin").size() == 1);
-  folder.write("-1.bin", "x");
-  check_says(message_of<DataError>([&] { list_numbered_files(folder.path(), ".bin"); }),
-             {"-1.bin", "no frame number"});
-}
-
-TEST_CASE("the content of a folder is told with up to eight names", "[frames]") {
-  const TemporaryFolder folder;
-  CHECK(content_text(folder.path()) == "nothing");
-  folder.write("b/in.txt", "x");
-  folder.write("a.txt", "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/");
-  for (const char* name : {"c", "d", "e", "f", "g", "h"}) folder.write(name, "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h");
-  folder.write("i", "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 1 more");
-  folder.write("j", "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 2 more");
 }

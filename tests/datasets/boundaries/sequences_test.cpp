@@ -153,22 +153,6 @@ TEST_CASE("points in the sensor's frame stay as they are wherever the sensor sta
   CHECK_THROWS_AS(sequence.scans->pose(1), InternalError);
 }
 
-TEST_CASE("five scans are looked at to estimate the sensor", "[files]") {
-  const TemporaryFolder folder;
-  std::string poses;
-  for (int i = 0; i < 7; ++i) {
-    // Of seven scans 0, 1, 3, 4 and 6. Scan 1 alone has the nearest point; 2 and 5 the farthest.
-    const float far = i == 2 || i == 5 ? 90.0F : 9.0F;
-    write_cloud(folder / ("s" + std::to_string(i) + ".bin"),
-                {{i == 1 ? 1.0F : 5.0F, 0, 0}, {0, far, 0}});
-    poses += kIdentityRow;
-  }
-  folder.write("poses.txt", poses);
-  const SensorModel sensor = open_sequence(folder.text(), {}).scans->sensor();
-  CHECK(sensor.range_min == 1.0);
-  CHECK(sensor.range_max == 9.0);
-}
-
 TEST_CASE("scans without times are a period apart", "[files]") {
   const TemporaryFolder folder;
   for (const char* name : {"a.bin", "b.bin", "c.bin"}) write_cloud(folder / name, {{1, 2, 3}});
@@ -330,16 +314,6 @@ TEST_CASE("a missing return stored as zero is none in a world far from its origi
     const Sequence sequence = open_sequence(folder.text(), {});
     CHECK_THROWS_WITH(sequence.scans->load(0), Catch::Contains("none of its 1 points"));
   }
-}
-
-TEST_CASE("the segments are those that papers compare on", "[semantickitti]") {
-  std::vector<std::string> texts;
-  for (const PaperSegment& segment : paper_segments()) {
-    texts.push_back(segment.name + " " + frame_range_text(segment.frames));
-  }
-  CHECK(texts == std::vector<std::string>{"kitti-00 4390:4530:2", "kitti-01 150:250:1",
-                                          "kitti-02 860:950:2", "kitti-05 2350:2670:2",
-                                          "kitti-07 630:820:2"});
 }
 
 TEST_CASE("a segment without its root, and a root without sequences, are told", "[semantickitti]") {

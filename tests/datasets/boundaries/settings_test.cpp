@@ -96,13 +96,3 @@ TEST_CASE("a label rule as an option makes labels of intensities", "[dynamicmap]
   options.label_rule = folder.write("rule.json", R"({"moving": [1]})");
   CHECK(open_sequence(folder.text(), options).labels);
 }
-
-TEST_CASE("what a segment lacks is told with the range there is", "[semantickitti]") {
-  const TemporaryFolder folder;
-  const std::string at = "sequences/05/";
-  for (const char* name : {"000002", "000004"}) {
-    folder.write(at + "velodyne/" + name + ".bin", floats({1, 2, 3, 4}));
-  }
-  check_says(message_of<DataError>([&] { open_sequence(folder.text() + ":kitti-05", {}); }),
-             {"2 frames from 2 to 4", ":05 --frames 2:4:2."});
-}

@@ -2,7 +2,6 @@
 // LAS files made by hand, byte by byte, after the LAS 1.4 specification (R15).
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
@@ -279,23 +278,12 @@ TEST_CASE("heads of LAS that cannot be are named", "[las]") {
 }
 
 TEST_CASE("cuts and flipped bytes of a LAS file give points or a DataError", "[las]") {
-  const TemporaryFolder folder;
   LasMaker las;
   las.add_record("LASF_Spec", 4, extra_field(9, "a") + extra_field(0, "b", 2));
   las.record_bytes = 36;
   las.points = las_point(36, 1, 2, 3) + las_point(36, 4, 5, 6);
   const std::string good = las.file();
-  std::mt19937 random(5);
-  for (std::size_t i = 0; i < good.size(); i += 3 + i / 300) {
-    std::string flipped = good;
-    flipped[i] = static_cast<char>(random());
-    for (const std::string& damaged : {good.substr(0, i), flipped}) {
-      try {
-        const PointRecords records = read_records(folder.write("a.las", damaged));
-        CHECK(records.size() <= good.size());
-      } catch (const DataError& error) {
-        CHECK_THAT(error.what(), Catch::Contains("a.las"));
-      }
-    }
-  }
+  read_cut_and_flipped("a.las", good, 3, [&](const std::filesystem::path& path) {
+    CHECK(read_records(path).size() <= good.size());
+  });
 }

@@ -9,7 +9,6 @@
 #include "core/files/files.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/las/las_head.h"
-#include "datasets/clouds/las/reference_system.h"
 #include "tests/datasets/clouds/record_files.h"
 
 using namespace raymoval;
@@ -63,7 +62,7 @@ TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
   add(691000.25, 5336000.5, -3, 1, 0.5F);
   add(691001.25, 5336001.5, 4, 2, 0.25F);
   add(691000.5, 5336000.75, 0, 2, 2.0F);
-  write_records(folder / "a.las", made, {.crs = "EPSG:32632", .intensity_scale = 100});
+  write_records(folder / "a.las", made, {.intensity_scale = 100});
   const std::string bytes = read_text(folder / "a.las");
   const auto number = [&](std::size_t at, auto zero) {
     std::memcpy(&zero, bytes.data() + at, sizeof zero);
@@ -83,13 +82,11 @@ TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
   CHECK(std::abs(number(211, 0.0) - 4) < 1e-9);
   CHECK(std::abs(number(219, 0.0) + 3) < 1e-9);
   const PointRecords las = read_records(folder / "a.las");
-  CHECK(las.las->reference_system == *epsg_text(32632));
   CHECK(column(las, "intensity") == std::vector<double>{50, 25, 200});
   CHECK(column(las, "intensity_1") == std::vector<double>{0.5, 0.25, 2});
   CHECK(column(las, "y") == column(made, "y"));
-  // What is written of a LAS file keeps its scale and reference system.
+  // What is written of a LAS file keeps its scale.
   write_records(folder / "b.las", las);
-  CHECK(read_records(folder / "b.las").las->reference_system == *epsg_text(32632));
   CHECK(read_records(folder / "b.las").bytes == las.bytes);
 }
 
@@ -111,20 +108,4 @@ TEST_CASE("what LAS cannot hold is an error before the file appears", "[las]") {
   made.set_value(1, made.layout.fields[0], 0);
   made.set_value(1, made.layout.fields[3], 16);
   check_says(says(), {"point 1 has return_number 16", "4 bits"});
-}
-
-TEST_CASE("a reference system is a zone, WKT or a file with it", "[las]") {
-  const TemporaryFolder folder;
-  check_says(*epsg_text(32701), {"WGS 84 / UTM zone 1S", "\"central_meridian\",-177", "10000000"});
-  check_says(*epsg_text(25833), {"ETRS89 / UTM zone 33N", "\"central_meridian\",15", "4258"});
-  CHECK(reference_system_text("EPSG:32632") == *epsg_text(32632));
-  const std::string wkt = "LOCAL_CS[\"mine\",UNIT[\"metre\",1]]";
-  CHECK(reference_system_text(wkt) == wkt);
-  CHECK(reference_system_text(folder.write("a.wkt", wkt).string()) == wkt);
-  check_says(message_of<UsageError>([] { reference_system_text("EPSG:31468"); }),
-             {"'EPSG:31468'", "gdalsrsinfo -o wkt1 EPSG:31468"});
-  check_says(message_of<UsageError>([] { reference_system_text("utm"); }), {"'utm' is no"});
-  check_says(message_of<UsageError>(
-                 [&] { reference_system_text(folder.write("b.wkt", "none").string()); }),
-             {"b.wkt", "WKT"});
 }

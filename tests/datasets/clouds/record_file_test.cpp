@@ -238,9 +238,6 @@ TEST_CASE("a writer refuses what cannot be before the file appears", "[records]"
   CHECK_THROWS_AS(PointRecordWriter(folder / "a.npz"), UsageError);
   CHECK_THROWS_AS(PointRecordWriter(folder / "a.pcd.gz"), UsageError);
   check_says(message_of<UsageError>([&] { PointRecordWriter(folder / "a.laz"); }), {"laszip"});
-  check_says(
-      message_of<UsageError>([&] { PointRecordWriter(folder / "a.pcd", {.crs = "EPSG:32632"}); }),
-      {"'.pcd' holds no coordinate reference system"});
   CHECK_THROWS_AS(what_is_lost("a.xyz", {}), UsageError);
   PointRecordWriter writer(folder / "a.pcd");
   check_says(message_of<DataError>([&] { writer.start({}); }), {"no field 'x'"});

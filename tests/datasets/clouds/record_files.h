@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstring>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -79,6 +81,25 @@ inline PointRecords random_records(std::mt19937& random, bool with_gaps = true) 
     }
   }
   return records;
+}
+
+/// Cuts `good` at every `step`-th byte, and puts any byte there, and gives the path of the file
+/// `name` with what comes of it to `read`, which may throw a DataError that names the file.
+inline void read_cut_and_flipped(const std::string& name, const std::string& good, std::size_t step,
+                                 const std::function<void(const std::filesystem::path&)>& read) {
+  const TemporaryFolder folder;
+  std::mt19937 random(5);
+  for (std::size_t i = 0; i < good.size(); i += step) {
+    std::string flipped = good;
+    flipped[i] = static_cast<char>(random());
+    for (const std::string& damaged : {good.substr(0, i), flipped}) {
+      try {
+        read(folder.write(name, damaged));
+      } catch (const DataError& error) {
+        CHECK_THAT(error.what(), Catch::Contains(name));
+      }
+    }
+  }
 }
 
 }  // namespace raymoval::test

@@ -6,7 +6,6 @@
 #include "core/angle.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/inspection/unopenable.h"
 #include "tests/datasets/inspect_data.h"
 
 using namespace raymoval;
@@ -174,14 +173,14 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
   SequenceOptions options;
   options.poses = "poses.npy";
   folder.write("poses.npy", poses(3));
-  CHECK(inspection::unopenable_findings(folder.text(), options).empty());
+  CHECK(unopenable_findings(folder.text(), options).empty());
   folder.write("poses.npy", poses(4));
-  const auto findings = inspection::unopenable_findings(folder.text(), options);
+  const auto findings = unopenable_findings(folder.text(), options);
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].what == "holds 4 poses for 3 scans");
   // What cannot be looked at is no scan, and no finding either.
   std::filesystem::create_symlink("3.bin", folder / "3.bin");
-  CHECK_THROWS_AS(inspection::unopenable_findings(folder.text(), options), UnreadableError);
+  CHECK_THROWS_AS(unopenable_findings(folder.text(), options), UnreadableError);
 }
 
 TEST_CASE("points in the world frame are named, and brought back on request", "[inspect][slow]") {

@@ -21,17 +21,18 @@ Pose at(double x, double yaw = 0.0) {
 }
 
 /// A body that goes 10 m/s along x from second 100 on, and turns by 0.2 rad each second.
-BodyMotion body() {
-  BodyMotion motion;
-  motion.trajectory = Trajectory(
+/// @param T_body_sensor where the sensor is on it
+SensorMotion motion_of_body(Nanoseconds time_offset = 0,
+                            const Pose& T_body_sensor = Pose::Identity()) {
+  const Trajectory trajectory(
       {{100 * kSecond, at(0)}, {101 * kSecond, at(10, 0.2)}, {104 * kSecond, at(40, 0.8)}});
-  return motion;
+  return SensorMotion({{trajectory}, {{}, T_body_sensor}}, time_offset);
 }
 
 }  // namespace
 
 TEST_CASE("poses are interpolated between two that are near enough", "[trajectories]") {
-  const TrajectoryMotion motion(body());
+  const SensorMotion motion = motion_of_body();
   const auto found = motion.at(100 * kSecond + kSecond / 4);
   REQUIRE(found);
   CHECK(found->translation().x() == Approx(2.5));
@@ -43,10 +44,8 @@ TEST_CASE("poses are interpolated between two that are near enough", "[trajector
 }
 
 TEST_CASE("a sensor on a body goes along, on a clock of its own", "[trajectories]") {
-  BodyMotion turned = body();
-  turned.T_body_sensor = at(2.0);  // Two metres ahead of the body's origin.
-  turned.time_offset = 100 * kSecond;
-  const TrajectoryMotion motion(turned);
+  // Two metres ahead of the body's origin.
+  const SensorMotion motion = motion_of_body(100 * kSecond, at(2.0));
   CHECK(motion.span() == std::pair<Nanoseconds, Nanoseconds>(0, 4 * kSecond));
   const Pose pose = motion.at(kSecond).value();
   CHECK(pose.translation().x() == Approx(10.0 + 2.0 * std::cos(0.2)));
@@ -54,7 +53,7 @@ TEST_CASE("a sensor on a body goes along, on a clock of its own", "[trajectories
 }
 
 TEST_CASE("scans without a pose are counted, never guessed", "[trajectories]") {
-  const TrajectoryMotion motion(body());
+  const SensorMotion motion = motion_of_body();
   const std::vector<Nanoseconds> stamps = {99 * kSecond, 100 * kSecond, 101 * kSecond,
                                            102 * kSecond, 104 * kSecond};
   const FoundPoses found = look_up_poses(stamps, motion, "traj.txt");
@@ -70,7 +69,7 @@ TEST_CASE("scans without a pose are counted, never guessed", "[trajectories]") {
 
 TEST_CASE("half of the scans without a pose is an error that says what would help",
           "[trajectories]") {
-  const TrajectoryMotion motion(body());
+  const SensorMotion motion = motion_of_body();
   const auto error = [&](const std::vector<Nanoseconds>& stamps) {
     return message_of<DataError>([&] { look_up_poses(stamps, motion, "traj.txt"); });
   };
@@ -80,7 +79,5 @@ TEST_CASE("half of the scans without a pose is an error that says what would hel
   check_says(error({102 * kSecond, 103 * kSecond}), {"too far apart in time", "--max-gap"});
   check_says(error({99 * kSecond, 100 * kSecond}), {"--frames", "--time-offset 1.000000000"});
   // The shift that is said helps.
-  BodyMotion shifted = body();
-  shifted.time_offset = 100 * kSecond;
-  CHECK(look_up_poses({0, kSecond}, TrajectoryMotion(shifted), "traj.txt").missing == 0);
+  CHECK(look_up_poses({0, kSecond}, motion_of_body(100 * kSecond), "traj.txt").missing == 0);
 }

@@ -277,28 +277,5 @@ TEST_CASE("What a format cannot hold is said, or refused, before anything is wri
                                       std::vector{Pose(Eigen::Translation3d(691000.0, 0.0, 0.0))});
   paths.map = folder.path() / "far.bin";
   CHECK_THROWS_WITH(write(paths, far), Contains("float32") && Contains(".pcd"));
-  paths.map = folder.path() / "map.pcd";
-  CleanWriting writing;
-  writing.crs = "EPSG:32632";
-  CHECK_THROWS_AS(write(paths, four_points(), writing), UsageError);
   CHECK(entries_of(folder.path()).size() == 1);
-}
-
-TEST_CASE("A reference system goes into the maps that hold one, and the others are named") {
-  const TemporaryFolder folder;
-  CleanPaths paths;
-  paths.map = folder.path() / "map.las";
-  paths.removed = folder.path() / "removed.ply";
-  CleanWriting writing;
-  writing.crs = "EPSG:32632";
-  const std::vector<std::string> notes = write(paths, four_points(), writing);
-  CHECK(std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
-          return note ==
-                 "--dynamic: the file does not say that it is in EPSG:32632; only .las does.";
-        }) == 1);
-  CHECK_THAT(read_text(paths.map), Contains("32632"));
-  paths.map.clear();
-  writing.crs = "EPSG:4326";
-  CHECK_THROWS_WITH(write(paths, four_points(), writing),
-                    Contains("--crs EPSG:4326") && Contains(".las"));
 }
