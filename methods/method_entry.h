@@ -36,13 +36,12 @@ struct MethodEntry {
   std::string manifest = {};    ///< Path of the manifest of an external method.
   std::function<std::unique_ptr<Remover>(const Configuration&)> make;
 
-  /// Takes the parameters from `table`, which must outlive the entry; `make_remover` gets their
-  /// values.
+  /// Takes the parameters from `table`; `make_remover` gets their values.
   template <class Parameters>
   void bind(const ParameterTable<Parameters>& table,
             std::unique_ptr<Remover> (*make_remover)(const Parameters&)) {
     parameters = table.specs();
-    make = [&table, make_remover](const Configuration& values) {
+    make = [table, make_remover](const Configuration& values) {
       return make_remover(table.read(values));
     };
   }

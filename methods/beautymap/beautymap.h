@@ -9,7 +9,7 @@ namespace raymoval {
 namespace beautymap_method {
 
 /// Parameters of BeautyMap; defaults are those of its public program. Their units, ranges and
-/// meanings are in `parameter_table()`.
+/// meanings stand in entry.cpp.
 struct Parameters {
   // The lattice.
   double column_size = 1.0;
@@ -23,9 +23,6 @@ struct Parameters {
   bool public_rays = true;
   bool public_top = true;
 };
-
-/// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<Parameters>& parameter_table();
 
 /// M. Jia, Q. Zhang, B. Yang, J. Wu, M. Liu, P. Jensfelt: "BeautyMap: Binary-Encoded Adaptable
 /// Ground Matrix for Dynamic Points Removal in Global Maps", RA-L 2024. The map is a matrix of

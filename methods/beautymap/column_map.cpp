@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/common/middle_value.h"
+
 namespace raymoval::beautymap_method {
 namespace {
 
@@ -11,18 +13,6 @@ namespace {
 constexpr double kFinestPart = 0.1;         ///< Height of a part of a slice, metres.
 constexpr double kOutlierShare = 0.6;       ///< Of the neighbours that must have points.
 constexpr double kOutlierDeviations = 3.0;  ///< From the neighbours' median to an outlier.
-
-/// The middle value, or the mean of both middle ones.
-double middle_value(std::vector<double> values) {
-  const std::size_t half = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
-                   values.end());
-  const double upper = values[half];
-  if (values.size() % 2 == 1) return upper;
-  const double lower =
-      *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half));
-  return 0.5 * (lower + upper);
-}
 
 int part_count(double slice_height, double part_height) {
   // 31 parts of a 31st must not become 32 by rounding.

@@ -8,25 +8,18 @@ namespace {
 using Table = ParameterTable<Parameters>;
 using P = Parameters;
 
-void add_lattice(Table& table) {
-  table
+Table make_table() {
+  return Table()
       .number("column_size", &P::column_size,
               {"m", 0.1, 10, "'xy_resolution' of the public program", "Side of a column."})
       .number("slice_height", &P::slice_height,
               {"m", 0.1, 5, "'h_res'", "Height of a slice; a column has 31 of them."})
       .number("window_side", &P::window_side,
               {"m", 4, 400, "'dis_range'",
-               "Side of the square around the sensor in which a scan judges the map."});
-}
-
-void add_protection(Table& table) {
-  table.number("sight_range", &P::sight_range,
-               {"m", 0, 400, "constant of the public program",
-                "From here on columns in which the scan has no ground are not judged."});
-}
-
-void add_switches(Table& table) {
-  table
+               "Side of the square around the sensor in which a scan judges the map."})
+      .number("sight_range", &P::sight_range,
+              {"m", 0, 400, "constant of the public program",
+               "From here on columns in which the scan has no ground are not judged."})
       .flag("public_lattice", &P::public_lattice,
             {.source = "the public program",
              .sentence = "Columns begin at the map's least x and y, and the window around the "
@@ -48,21 +41,7 @@ void add_switches(Table& table) {
                          "something there if the column has something below too. Else all do."});
 }
 
-Table make_table() {
-  Table table;
-  add_lattice(table);
-  add_protection(table);
-  add_switches(table);
-  return table;
-}
-
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = make_table();
-  return table;
-}
-
 }  // namespace beautymap_method
 
 MethodEntry beautymap_entry() {
@@ -107,7 +86,7 @@ MethodEntry beautymap_entry() {
       {"sound", "Without the quirks of the public program.", false, sound},
       {"wide", "Without the quirks, and judging up to 50 m instead of 20.", false, wide},
   };
-  entry.bind(beautymap_method::parameter_table(), beautymap_method::make_beautymap);
+  entry.bind(beautymap_method::make_table(), beautymap_method::make_beautymap);
   return entry;
 }
 

@@ -19,9 +19,6 @@ struct Parameters {
   bool offline = true;
 };
 
-/// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<Parameters>& parameter_table();
-
 /// D. Duberg, Q. Zhang, M. Jia, P. Jensfelt: "DUFOMap: Efficient Dynamic Awareness Mapping", RA-L
 /// 2024. A voxel that one scan has once seen free for certain is a void; a point that ever falls in
 /// a void is dynamic. Per scan:

@@ -9,8 +9,7 @@ using Table = ParameterTable<Parameters>;
 using P = Parameters;
 
 Table make_table() {
-  Table table;
-  table
+  return Table()
       .number("voxel_size", &P::voxel_size,
               {"m", 0.02, 2, "v; 'resolution' of the public configuration", "Edge of a voxel."})
       .number("hit_extension", &P::hit_extension,
@@ -34,16 +33,9 @@ Table make_table() {
             {.source = "the paper's online variant",
              .sentence = "Answer for all points after the last scan instead of for each scan once "
                          "it is integrated."});
-  return table;
 }
 
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = make_table();
-  return table;
-}
-
 }  // namespace dufomap_method
 
 MethodEntry dufomap_entry() {
@@ -84,7 +76,7 @@ MethodEntry dufomap_entry() {
        true,
        {{"offline", false}, {"unknown_inflation", std::int64_t{2}}}},
   };
-  entry.bind(dufomap_method::parameter_table(), dufomap_method::make_dufomap);
+  entry.bind(dufomap_method::make_table(), dufomap_method::make_dufomap);
   return entry;
 }
 

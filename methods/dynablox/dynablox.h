@@ -9,7 +9,7 @@ namespace raymoval {
 namespace dynablox_method {
 
 /// Parameters of Dynablox; defaults are those of the published configuration. Their units, ranges
-/// and meanings are in `parameter_table()`.
+/// and meanings stand in entry.cpp.
 struct Parameters {
   // The distance field.
   double voxel_size = 0.2;
@@ -28,9 +28,6 @@ struct Parameters {
   // The answer.
   bool offline = false;
 };
-
-/// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<Parameters>& parameter_table();
 
 /// L. Schmid, O. Andersson, A. Sulser, P. Pfreundschuh, R. Siegwart: "Dynablox: Real-time Detection
 /// of Diverse Dynamic Objects in Complex Environments", RA-L 2023. What moves is what appears where

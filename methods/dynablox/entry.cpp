@@ -12,8 +12,8 @@ const char* const kShipped = "the public program's configuration";
 const char* const kOnline = "offline is false";
 
 Table make_table() {
-  Table table;
-  table.number("voxel_size", &P::voxel_size, {"m", 0.1, 2, kShipped, "Edge of a voxel."})
+  return Table()
+      .number("voxel_size", &P::voxel_size, {"m", 0.1, 2, kShipped, "Edge of a voxel."})
       .number("min_range", &P::min_range,
               {"m", 0, 50, kShipped, "Nearer returns and voxels tell nothing of free space."})
       .number("max_range", &P::max_range,
@@ -51,16 +51,9 @@ Table make_table() {
             {.source = "not in the paper",
              .sentence = "Every point goes that lies in a voxel which is ever free in the end. "
                          "Else the points of a scan's clusters, judged when it comes."});
-  return table;
 }
 
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = make_table();
-  return table;
-}
-
 }  // namespace dynablox_method
 
 MethodEntry dynablox_entry() {
@@ -101,7 +94,7 @@ MethodEntry dynablox_entry() {
       {"offline", "A point goes if its voxel is ever free in the end.", false, {{"offline", true}}},
       {"offline-wide", "Both.", false, {{"max_range", 80.0}, {"offline", true}}},
   };
-  entry.bind(dynablox_method::parameter_table(), dynablox_method::make_dynablox);
+  entry.bind(dynablox_method::make_table(), dynablox_method::make_dynablox);
   return entry;
 }
 

@@ -88,6 +88,15 @@ void add_ground(Table& table) {
                "Points less than this above the plane are ground."});
 }
 
+Table make_table() {
+  Table table;
+  add_map(table);
+  add_bins(table);
+  add_ratio_test(table);
+  add_ground(table);
+  return table;
+}
+
 /// The values of a set that differ from the general one are all that a variant names.
 std::vector<MethodVariant> variants() {
   const auto text = [](const char* sequence) {
@@ -132,19 +141,6 @@ std::vector<MethodVariant> variants() {
 }
 
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = [] {
-    Table t;
-    add_map(t);
-    add_bins(t);
-    add_ratio_test(t);
-    add_ground(t);
-    return t;
-  }();
-  return table;
-}
-
 }  // namespace erasor_method
 
 MethodEntry erasor_entry() {
@@ -189,7 +185,7 @@ MethodEntry erasor_entry() {
       "frame of the drive, that of 01 every frame.",
   };
   entry.variants = erasor_method::variants();
-  entry.bind(erasor_method::parameter_table(), erasor_method::make_erasor);
+  entry.bind(erasor_method::make_table(), erasor_method::make_erasor);
   return entry;
 }
 

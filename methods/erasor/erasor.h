@@ -48,9 +48,6 @@ struct Parameters {
   double ground_distance = 0.15;
 };
 
-/// The one place where the parameters are named.
-const ParameterTable<Parameters>& parameter_table();
-
 /// "ERASOR: Egocentric Ratio of Pseudo Occupancy-based Dynamic Object Removal for Static 3D Point
 /// Cloud Map Building" (Lim, Hwang, Myung, RA-L 2021), written from its description.
 ///

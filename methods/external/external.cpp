@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "methods/external/external.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <system_error>
 #include <utility>
 
+#include "core/error.h"
 #include "core/files/scratch_folder.h"
+#include "core/process/child_process.h"
+#include "core/text.h"
 #include "methods/external/manifest.h"
-#include "methods/external/program.h"
 #include "methods/external/sequence_files.h"
 
 namespace raymoval {
@@ -31,6 +37,55 @@ std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
 bool is_folder_kept() {
   const char* asked = std::getenv("RAYMOVAL_KEEP_WORKING_FOLDER");
   return asked != nullptr && *asked != '\0';
+}
+
+/// The file that `name` starts, as a shell would find it.
+std::string found_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) return name;
+  const char* path = std::getenv("PATH");
+  for (const std::string_view folder : split(path != nullptr ? path : "/usr/bin:/bin", ':')) {
+    const std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
+    std::error_code ignored;
+    if (::access(file.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(file, ignored)) {
+      return std::filesystem::absolute(file, ignored).string();
+    }
+  }
+  throw MethodError(fmt::format(
+      "the program '{}' is not on PATH; install it, or name it by its path in the manifest", name));
+}
+
+/// What the program printed last, as the end of a message.
+std::string printed_text(const std::string& output) {
+  const std::size_t end = output.find_last_not_of(" \n\r\t");
+  if (end == std::string::npos) return " and printed nothing";
+  return ". It printed last:\n" + output.substr(0, end + 1);
+}
+
+/// What went wrong, to follow the program's name; empty if nothing did.
+std::string fault_of(const ChildEnd& end, double time_limit_s, double disk_limit_gib) {
+  switch (end.kind) {
+    case ChildEnd::Kind::kCancelled:
+      throw Cancelled();
+    case ChildEnd::Kind::kNotStarted:
+      return fmt::format("cannot be started ({})", std::generic_category().message(end.code));
+    case ChildEnd::Kind::kTimeout:
+      return fmt::format("did not end within {} s and was ended", number_text(time_limit_s)) +
+             printed_text(end.output_tail);
+    case ChildEnd::Kind::kOutOfDisk:
+      return fmt::format(
+                 "filled its working folder with more than {} GiB and was ended; raise "
+                 "'disk_limit_gib' in the manifest or run on fewer frames",
+                 number_text(disk_limit_gib)) +
+             printed_text(end.output_tail);
+    case ChildEnd::Kind::kOutOfMemory:
+      break;  // There is no limit on memory here: whoever runs the method sets it.
+    case ChildEnd::Kind::kSignalled:
+      return "was ended by " + signal_text(end.code) + printed_text(end.output_tail);
+    case ChildEnd::Kind::kExited:
+      if (end.code == 0) return "";
+      return fmt::format("ended with exit code {}", end.code) + printed_text(end.output_tail);
+  }
+  throw InternalError("unknown end of a program");
 }
 
 class External : public Remover {
@@ -63,12 +118,23 @@ class External : public Remover {
     return std::max(600.0, 30.0 * static_cast<double>(scans));
   }
 
+  /// Runs the program to its end; what it prints is kept for messages only.
   void run_command(const std::filesystem::path& folder, std::size_t scans,
                    const RunContext& context) const {
     const StageScope timed(context.times, "program");
     context.begin_pass("program", 1);
-    run_program({command_line(manifest_), folder, environment_for(context.threads),
-                 time_limit_s(scans), manifest_.disk_limit_gib, context.cancel});
+    ChildSetup setup;
+    setup.arguments = command_line(manifest_);
+    setup.program = found_program(setup.arguments.front());
+    setup.folder = folder;
+    setup.environment = environment_for(context.threads);
+    setup.limits.seconds = time_limit_s(scans);
+    setup.limits.folder_mib = 1024.0 * manifest_.disk_limit_gib;
+    setup.cancel = context.cancel;
+    const std::string fault =
+        fault_of(run_child(setup), setup.limits.seconds, manifest_.disk_limit_gib);
+    if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
+    if (!fault.empty()) throw MethodError(fmt::format("'{}' {}", setup.program, fault));
     context.advance();
   }
 

@@ -10,8 +10,7 @@ using P = Parameters;
 constexpr const char* kKitti = "KITTI settings of the public program";
 
 Table make_table() {
-  Table table;
-  table
+  return Table()
       .number("sub_voxel_size", &P::sub_voxel_size,
               {"m", 0.02, 2, kKitti,
                "Edge of a sub-voxel, which keeps one point. Voxels, which are free or not, have "
@@ -46,16 +45,9 @@ Table make_table() {
               {"m", 1, 1000, "KITTI settings; 30 for Livox",
                "Farther points are not in the image, whose depths are 255th parts of this.",
                "enhancement is true"});
-  return table;
 }
 
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = make_table();
-  return table;
-}
-
 }  // namespace freedom_method
 
 MethodEntry freedom_entry() {
@@ -105,7 +97,7 @@ MethodEntry freedom_entry() {
        false,
        {{"counts_to_free", std::int64_t{3}}}},
   };
-  entry.bind(freedom_method::parameter_table(), freedom_method::make_freedom);
+  entry.bind(freedom_method::make_table(), freedom_method::make_freedom);
   return entry;
 }
 

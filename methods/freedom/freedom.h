@@ -9,7 +9,7 @@ namespace raymoval {
 namespace freedom_method {
 
 /// Parameters of FreeDOM; defaults are those of its public program for KITTI. Their units, ranges
-/// and meanings are in `parameter_table()`.
+/// and meanings stand in entry.cpp.
 struct Parameters {
   double sub_voxel_size = 0.1;
   // The points of a scan, and its rays.
@@ -30,9 +30,6 @@ struct Parameters {
   /// Edge of a voxel, metres.
   [[nodiscard]] double voxel_size() const { return sub_voxel_size * 4; }
 };
-
-/// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<Parameters>& parameter_table();
 
 /// C. Li et al.: "FreeDOM: Online Dynamic Object Removal Framework for Static Map Construction
 /// Based on Conservative Free Space Estimation", RA-L 2025. Voxels (0.4 m) are free or not;

@@ -5,6 +5,51 @@
 #include <bit>
 #include <cmath>
 
+#include "core/simd/compiled_sets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "methods/hmm_mos/distances.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+//
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace raymoval::hmm_mos_method {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Bytes = hn::CappedTag<std::uint8_t, 64>;
+
+void take_nearest(const NearRows& rows, std::size_t first, std::size_t last,
+                  std::uint8_t* nearest) {
+  const Bytes d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t at = first / lanes * lanes; at <= last; at += lanes) {
+    auto most = hn::LoadU(d, nearest + at);
+    for (std::uint64_t left = rows.which; left != 0; left &= left - 1) {
+      const int row = std::countr_zero(left);
+      const auto near = hn::LoadU(d, rows.rows + row * rows.stride + at);
+      most = hn::Max(most, hn::SaturatedSub(near, hn::Set(d, rows.away[row])));
+    }
+    hn::StoreU(most, d, nearest + at);
+  }
+}
+
+}  // namespace
+
+TakeNearest take_nearest_kernel() {
+  return &take_nearest;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace raymoval::hmm_mos_method
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "core/simd/instruction_sets.h"
+
 namespace raymoval::hmm_mos_method {
 namespace {
 
@@ -18,11 +63,13 @@ constexpr std::array<std::uint8_t, kHeight> kNotAway{};
 
 }  // namespace
 
+HWY_EXPORT(take_nearest_kernel);
+
 DistanceField::DistanceField(int far)
     : far_(far),
       margin_(static_cast<int>(std::ceil(std::sqrt(far))) - 1),
       width_(kSide + 2 * margin_),
-      take_nearest_(kernels::best_take_nearest()),
+      take_nearest_(RAYMOVAL_BEST_KERNEL(take_nearest_kernel)()),
       of_columns_(static_cast<std::size_t>(width_ * width_)),
       of_rows_(static_cast<std::size_t>(width_ * kSide)),
       nearness_(kColumns),
@@ -142,3 +189,4 @@ void DistanceField::along_x(const ScanBlock& block) {
 }
 
 }  // namespace raymoval::hmm_mos_method
+#endif

@@ -8,8 +8,7 @@
 
 #include "methods/hmm_mos/scan_voxels.h"
 
-/// The innermost loop of the distances. It is compiled for each instruction set.
-namespace raymoval::hmm_mos_method::kernels {
+namespace raymoval::hmm_mos_method {
 
 /// Rows of bytes that lie `stride` bytes apart, of which some are looked at.
 struct NearRows {
@@ -19,17 +18,11 @@ struct NearRows {
   const std::uint8_t* away = nullptr;  ///< By row, how much less near it is.
 };
 
-/// Raises bytes of the row `nearest` to the largest of those in the rows, each less what is away,
-/// or 0 if that is less: those from `first` to `last`, and perhaps others.
+/// The innermost loop of the distances, compiled for each instruction set: raises bytes of the row
+/// `nearest` to the largest of those in the rows, each less what is away, or 0 if that is less:
+/// those from `first` to `last`, and perhaps others.
 using TakeNearest = void (*)(const NearRows& rows, std::size_t first, std::size_t last,
                              std::uint8_t* nearest);
-
-/// The kernel for the best instruction set that this processor has.
-TakeNearest best_take_nearest();
-
-}  // namespace raymoval::hmm_mos_method::kernels
-
-namespace raymoval::hmm_mos_method {
 
 /// Step 3: squared distances from the observed voxels of a block to the nearest occupied voxel of
 /// this scan and the one before, in voxels, also to those beyond the range. They are exact below a
@@ -66,7 +59,7 @@ class DistanceField {
   int far_;
   int margin_;  ///< Voxels around a block that may be nearer than `far_`.
   int width_;   ///< Of a block with its margins.
-  kernels::TakeNearest take_nearest_;
+  TakeNearest take_nearest_;
   std::vector<std::uint8_t> ramp_;  ///< Nearness by difference of heights, from the least one.
   std::vector<std::uint8_t> away_;  ///< Squares of -margin to +margin.
 

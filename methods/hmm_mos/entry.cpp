@@ -8,7 +8,7 @@ namespace {
 using Table = ParameterTable<Parameters>;
 using P = Parameters;
 
-void add_scan(Table& table) {
+void add_map(Table& table) {
   table
       .number("voxel_size", &P::voxel_size,
               {"m", 0.05, 2, "all configurations of the public program (its README says 0.2)",
@@ -18,11 +18,7 @@ void add_scan(Table& table) {
                "Points that are not farther from the sensor are left out and stay."})
       .number("max_range", &P::max_range,
               {"m", 1, 300, "the public configurations",
-               "Voxels farther from the sensor are neither observed nor judged."});
-}
-
-void add_state(Table& table) {
-  table
+               "Voxels farther from the sensor are neither observed nor judged."})
       .number("spread", &P::spread,
               {"voxels", 0.25, 1.5, "'sigma', a voxel's edge in the public configurations",
                "Standard deviation of the distance to the nearest occupied voxel, of this scan or "
@@ -41,7 +37,9 @@ void add_state(Table& table) {
                "Voxels farther from the sensor than max_range times this are forgotten."});
 }
 
-void add_change(Table& table) {
+Table make_table() {
+  Table table;
+  add_map(table);
   table
       .integer("reach", &P::reach,
                {"voxels", 1, 4, "a convolution of 5 voxels in the public configurations",
@@ -54,15 +52,7 @@ void add_change(Table& table) {
           "least_threshold", &P::least_threshold,
           {"", 0, 10000, "'minOtsu' of the public configurations",
            "A scan whose threshold is not above this is static as a whole, and a voxel that was "
-           "dynamic in the scan before stays so if its score is above this."});
-}
-
-Table make_table() {
-  Table table;
-  add_scan(table);
-  add_state(table);
-  add_change(table);
-  table
+           "dynamic in the scan before stays so if its score is above this."})
       .flag("public_lattice", &P::public_lattice,
             {.source = "the public program",
              .sentence = "Indices of voxels are cut off towards zero, so that those around the "
@@ -78,12 +68,6 @@ Table make_table() {
 }
 
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = make_table();
-  return table;
-}
-
 }  // namespace hmm_mos_method
 
 MethodEntry hmm_mos_entry() {
@@ -124,7 +108,7 @@ MethodEntry hmm_mos_entry() {
        false,
        {{"public_lattice", false}, {"offline", true}}},
   };
-  entry.bind(hmm_mos_method::parameter_table(), hmm_mos_method::make_hmm_mos);
+  entry.bind(hmm_mos_method::make_table(), hmm_mos_method::make_hmm_mos);
   return entry;
 }
 

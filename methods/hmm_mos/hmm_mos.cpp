@@ -31,34 +31,29 @@ Mask mask_of(const Scan& scan, const Parameters& parameters, Moves&& moves) {
   return mask;
 }
 
-/// What is known after the scans so far.
-struct Knowledge {
-  explicit Knowledge(const Parameters& parameters) : map(parameters), moving(parameters) {}
-  BeliefMap map;
-  MovingVoxels moving;
-  ScanVoxels before;  ///< Of the scan before.
-};
-
-/// Steps 3 to 11.
-void take_in(const Scan& scan, ScanVoxels& voxels, const RunContext& context, Knowledge& known) {
+/// Steps 3 to 11 for a scan. @param before the voxels of the scan before, replaced by this scan's
+void take_in(const Scan& scan, ScanVoxels& voxels, const RunContext& context, ScanVoxels& before,
+             BeliefMap& map, MovingVoxels& moving) {
   {
     const StageScope timed(context.times, "belief");
-    known.map.observe(voxels, known.before, context);
+    map.observe(voxels, before, context);
   }
   {
     const StageScope timed(context.times, "forgetting");
-    known.map.forget(scan.T_world_sensor.translation());
+    map.forget(scan.T_world_sensor.translation());
   }
   const StageScope timed(context.times, "change");
-  known.moving.add(voxels.grid, known.map);
-  std::swap(known.before, voxels);
+  moving.add(voxels.grid, map);
+  std::swap(before, voxels);
 }
 
-/// Goes through the scans in order of time and calls `answer(scan, knowledge)` after each.
-template <class Answer>
-void for_scans_in_time(const Parameters& parameters, const ScanSource& scans,
-                       const RunContext& context, Knowledge& known, Answer&& answer) {
+void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
+         const RunContext& context) {
+  BeliefMap map(parameters);
+  MovingVoxels moving(parameters);
+  ScanVoxels before;
   std::vector<ScanVoxels> voxels(scans_in_a_batch(scans, context));
+  MaskStore moved(parameters.offline ? scans.size() : 0);
   for_scan_batches("hmm_mos", scans, context, [&](std::span<Scan> batch) {
     {
       const StageScope timed(context.times, "raycasting");
@@ -66,30 +61,20 @@ void for_scans_in_time(const Parameters& parameters, const ScanSource& scans,
                    [&](std::size_t i) { find_voxels(batch[i], parameters, context, voxels[i]); });
     }
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      take_in(batch[i], voxels[i], context, known);
+      take_in(batch[i], voxels[i], context, before, map, moving);
       const StageScope timed(context.times, "answer");
-      answer(batch[i]);
+      const Mask mask = mask_of(batch[i], parameters,
+                                [&](VoxelKey voxel) { return moving.found().contains(voxel); });
+      parameters.offline ? moved.set(batch[i].index, mask) : sink.accept(batch[i].index, mask);
     }
   });
-}
-
-void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
-         const RunContext& context) {
-  Knowledge known(parameters);
-  MaskStore moved(parameters.offline ? scans.size() : 0);
-  for_scans_in_time(parameters, scans, context, known, [&](const Scan& scan) {
-    const VoxelSet& moving = known.moving.found();
-    const Mask mask =
-        mask_of(scan, parameters, [&](VoxelKey voxel) { return moving.contains(voxel); });
-    parameters.offline ? moved.set(scan.index, mask) : sink.accept(scan.index, mask);
-  });
   if (!parameters.offline) return;
-  known.map.forget_all();
-  const CellSet& free = known.map.forgotten_free();
+  map.forget_all();
+  const CellSet& free = map.forgotten_free();
   answer_scans("hmm_mos, answers", scans, sink, context, [&](const Scan& scan) {
     Mask mask = mask_of(scan, parameters, [&](VoxelKey voxel) { return free.contains(voxel); });
-    const Mask before = moved.get(scan.index);
-    std::transform(mask.begin(), mask.end(), before.begin(), mask.begin(), std::bit_or<>());
+    const Mask online = moved.get(scan.index);
+    std::transform(mask.begin(), mask.end(), online.begin(), mask.begin(), std::bit_or<>());
     return mask;
   });
 }

@@ -9,7 +9,7 @@ namespace raymoval {
 namespace hmm_mos_method {
 
 /// Parameters of HMM-MOS; defaults are those of its public program's configurations. Their units,
-/// ranges and meanings are in `parameter_table()`.
+/// ranges and meanings stand in entry.cpp.
 struct Parameters {
   // What is taken of a scan.
   double voxel_size = 0.25;
@@ -31,9 +31,6 @@ struct Parameters {
   // Ours.
   bool offline = false;
 };
-
-/// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<Parameters>& parameter_table();
 
 /// V. Bhandari, J. James, T. Phillips, P. R. McAree: "Moving Object Segmentation in Point Cloud
 /// Data using Hidden Markov Models", IROS 2024 workshop. For each scan:

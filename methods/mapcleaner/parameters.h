@@ -7,7 +7,7 @@
 namespace raymoval::mapcleaner_method {
 
 /// Parameters of MapCleaner; defaults are those of the public program for KITTI. Their units,
-/// ranges and meanings are in `parameter_table()`.
+/// ranges and meanings stand in entry.cpp.
 struct Parameters : patchwork::GroundParameters {
   // The terrain.
   double terrain_cell = 0.2;
@@ -38,9 +38,6 @@ struct Parameters : patchwork::GroundParameters {
   bool public_overwrite = true;
   bool public_steps = true;
 };
-
-/// The one place where names, units, ranges and sources of the parameters stand.
-const ParameterTable<Parameters>& parameter_table();
 
 /// The parameters for a sensor. They are set for the HDL-64E of KITTI. Unless `public_steps`, the
 /// pixels for a sensor whose directions are far apart are as large as it takes for the window

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/angle.h"
 #include "core/parallel.h"
@@ -14,30 +13,13 @@
 namespace raymoval::mapcleaner_method {
 namespace {
 
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
-/// Work for a thread at a time. They change no answer.
-constexpr std::size_t kImagePointsATask = 16 * ImageFrame::Batch::kSize, kRowsATask = 4;
+/// Work for a thread at a time. It changes no answer.
+constexpr std::size_t kImagePointsATask = 16 * ImageFrame::Batch::kSize;
 
 /// How many pixels an angle has room for.
 int pixels_in(double angle, double pixel) {
   constexpr double kRounding = 1e-6;
   return std::max(1, static_cast<int>(std::ceil(angle / pixel - kRounding)));
-}
-
-/// Replaces `lowest` and `highest` by the extremes of those up to `reach` steps away in both
-/// directions, where `at(i)` says where the values i = -reach to reach begin.
-template <class At>
-void take_extremes(int count, int reach, At&& at, float* lowest, float* highest) {
-  std::fill_n(lowest, count, kInfinite);
-  std::fill_n(highest, count, 0.0F);
-  for (int step = -reach; step <= reach; ++step) {
-    const auto [low, high] = at(step);
-    if (low == nullptr) continue;
-    for (int i = 0; i < count; ++i) {
-      lowest[i] = low[i] < lowest[i] ? low[i] : lowest[i];
-      highest[i] = high[i] > highest[i] ? high[i] : highest[i];
-    }
-  }
 }
 
 /// Whether a step between beams is a whole window of rows, or more. Then beams have to lie in the
@@ -93,13 +75,7 @@ RangeImage::RangeImage(const Parameters& parameters, const SensorModel& sensor)
       wide_(parameters.window_columns),
       high_(parameters.window_rows),
       tolerance_(static_cast<float>(parameters.tolerance)) {
-  const std::size_t size =
-      static_cast<std::size_t>(frame_.rows) * static_cast<std::size_t>(frame_.columns);
-  ranges_.resize(size);
-  lowest_.resize(size);
-  highest_.resize(size);
-  row_lowest_.resize(size);
-  row_highest_.resize(size);
+  ranges_.resize(static_cast<std::size_t>(frame_.rows) * static_cast<std::size_t>(frame_.columns));
 }
 
 void RangeImage::fill(const Scan& scan, int threads) {
@@ -128,56 +104,27 @@ void RangeImage::fill(const Scan& scan, int threads) {
     float& seen = ranges_[static_cast<std::size_t>(pixels_[i])];
     if (keeps_last_ || seen == 0.0F || point_ranges_[i] < seen) seen = point_ranges_[i];
   }
-  find_extremes(threads);
 }
 
-void RangeImage::find_extremes(int threads) {
-  const int columns = frame_.columns, rows = frame_.rows;
-  const int wide = std::min(wide_, (columns - 1) / 2);  // No pixel stands in a window twice.
-  parallel_for(threads, static_cast<std::size_t>(rows), kRowsATask, [&](std::size_t row) {
-    // The row with what is beside its ends.
-    const auto padded = static_cast<std::size_t>(columns + 2 * wide);
-    std::vector<float> low(padded, kInfinite), high(padded, 0.0F);
-    for (int i = 0; i < columns + 2 * wide; ++i) {
-      int column = i - wide;
-      if (frame_.is_circle) column = (column + columns) % columns;
-      if (column < 0 || column >= columns) continue;
-      const float range = at(static_cast<int>(row), column);
-      if (range == 0.0F) continue;
-      low[static_cast<std::size_t>(i)] = high[static_cast<std::size_t>(i)] = range;
-    }
-    const std::size_t begin = index(static_cast<int>(row), 0);
-    take_extremes(
-        columns, wide,
-        [&](int step) { return std::pair(low.data() + wide + step, high.data() + wide + step); },
-        row_lowest_.data() + begin, row_highest_.data() + begin);
-  });
-  parallel_for(threads, static_cast<std::size_t>(rows), kRowsATask, [&](std::size_t row) {
-    const auto beside = [&](int step) {
-      const int other = static_cast<int>(row) + step;
-      using Pointers = std::pair<const float*, const float*>;
-      if (other < 0 || other >= rows) return Pointers(nullptr, nullptr);
-      return Pointers(row_lowest_.data() + index(other, 0), row_highest_.data() + index(other, 0));
-    };
-    const std::size_t begin = index(static_cast<int>(row), 0);
-    take_extremes(columns, high_, beside, lowest_.data() + begin, highest_.data() + begin);
-  });
-}
-
-bool RangeImage::has_equal(int pixel, float range) const {
+Sight RangeImage::look(int pixel, float range) const {
   const int columns = frame_.columns;
   const int row = pixel / columns, column = pixel % columns;
-  const int wide = std::min(wide_, (columns - 1) / 2);
+  const int wide = std::min(wide_, (columns - 1) / 2);  // No pixel stands in a window twice.
+  Sight sight = Sight::kNothing;
+  bool is_hidden = false;
   for (int y = std::max(0, row - high_); y <= std::min(frame_.rows - 1, row + high_); ++y) {
     for (int step = -wide; step <= wide; ++step) {
       int x = column + step;
-      if (frame_.is_circle) x = (x + columns) % columns;
+      if (frame_.is_circle) x = x < 0 ? x + columns : x < columns ? x : x - columns;
       if (x < 0 || x >= columns) continue;
-      const float seen = at(y, x);
-      if (seen > 0.0F && is_equal(seen, range)) return true;
+      const float seen = at(y, x), difference = seen - range;
+      if (seen == 0.0F) continue;
+      if (difference <= tolerance_ && difference >= -tolerance_) return Sight::kSeen;
+      is_hidden |= difference < 0.0F;
+      sight = Sight::kSeenThrough;
     }
   }
-  return false;
+  return is_hidden ? Sight::kNothing : sight;
 }
 
 }  // namespace raymoval::mapcleaner_method

@@ -57,37 +57,22 @@ class RangeImage {
   /// the tolerance; else nothing is told where one is smaller; else it is seen through where one is
   /// larger.
   /// @param range metres from the sensor
-  [[nodiscard]] Sight look(int pixel, float range) const {
-    const auto place = static_cast<std::size_t>(pixel);
-    const float highest = highest_[place], lowest = lowest_[place];
-    if (highest == 0.0F || range - highest > tolerance_) return Sight::kNothing;
-    if (lowest - range > tolerance_) return Sight::kSeenThrough;
-    if (is_equal(lowest, range) || is_equal(highest, range)) return Sight::kSeen;
-    return has_equal(pixel, range) ? Sight::kSeen : Sight::kNothing;
-  }
+  [[nodiscard]] Sight look(int pixel, float range) const;
 
  private:
   [[nodiscard]] std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.columns) +
            static_cast<std::size_t>(column);
   }
-  [[nodiscard]] bool is_equal(float seen, float range) const {
-    const float difference = seen - range;
-    return difference <= tolerance_ && difference >= -tolerance_;
-  }
-  [[nodiscard]] bool has_equal(int pixel, float range) const;
-  /// The lowest and highest ranges of windows.
-  void find_extremes(int threads);
 
   ImageFrame frame_;
   bool keeps_last_;
   int wide_, high_;  ///< Half sizes of the window, pixels.
   float tolerance_;  ///< Metres.
   std::vector<float> ranges_;
-  std::vector<float> lowest_, highest_;  ///< In the window of each pixel; infinite and 0 if empty.
-  // Scratch.
+  // Of the scan's points.
   std::vector<int> pixels_;
-  std::vector<float> point_ranges_, row_lowest_, row_highest_;
+  std::vector<float> point_ranges_;
 };
 
 }  // namespace raymoval::mapcleaner_method

@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "core/parallel.h"
-#include "core/sampling.h"
+#include "methods/common/middle_value.h"
 
 namespace raymoval::mapcleaner_method {
 namespace {
@@ -92,14 +92,6 @@ void go_from_nearest(const VoxelIndex& start, const std::vector<VoxelIndex>& aro
   }
 }
 
-/// The middle value, or the mean of both.
-double middle_of(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  if (values.size() % 2 == 1) return *half;
-  return 0.5 * (*half + *std::max_element(values.begin(), half));
-}
-
 /// How the ground around a start leans: the medians of the gradients of cells with a height. Level
 /// if there are none.
 Eigen::Vector2d lean_around(const VoxelIndex& start, const std::vector<VoxelIndex>& around,
@@ -112,7 +104,7 @@ Eigen::Vector2d lean_around(const VoxelIndex& start, const std::vector<VoxelInde
     along_y.push_back(gradient.y());
   }
   if (along_x.empty()) return Eigen::Vector2d::Zero();
-  return {middle_of(along_x), middle_of(along_y)};
+  return {middle_value(along_x), middle_value(along_y)};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scan/voxel_key.h"
-#include "methods/octomap/parameters.h"
+#include "methods/octomap/octomap.h"
 #include "methods/remover.h"
 
 namespace raymoval::octomap_method {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scan/scan.h"
-#include "methods/octomap/parameters.h"
+#include "methods/octomap/octomap.h"
 
 namespace raymoval::octomap_method {
 

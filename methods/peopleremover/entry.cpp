@@ -10,8 +10,7 @@ using P = Parameters;
 constexpr const char* kConstant = "a constant in 3DTK";
 
 Table make_table() {
-  Table table;
-  table
+  return Table()
       .number("voxel_size", &P::voxel_size,
               {"m", 0.02, 10, "--voxel-size; 3DTK: 10 of its units, 0.1 m in centimetre data",
                "Edge of a voxel."})
@@ -39,16 +38,9 @@ Table make_table() {
               {"m", 0, 100, kConstant,
                "Points this near are left out and stay static; 0 takes the voxel diagonal, as "
                "3DTK does."});
-  return table;
 }
 
 }  // namespace
-
-const ParameterTable<Parameters>& parameter_table() {
-  static const Table table = make_table();
-  return table;
-}
-
 }  // namespace peopleremover_method
 
 MethodEntry peopleremover_entry() {
@@ -103,7 +95,7 @@ MethodEntry peopleremover_entry() {
        false,
        {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
   };
-  entry.bind(peopleremover_method::parameter_table(), peopleremover_method::make_peopleremover);
+  entry.bind(peopleremover_method::make_table(), peopleremover_method::make_peopleremover);
   return entry;
 }
 

@@ -107,43 +107,44 @@ class ScanWindow {
 class ScanVerdicts {
  public:
   /// @param freed one word per brick of `map`
-  /// @param half_voxel_radius voxels (Chebyshev); 0 removes freed voxels only
-  ScanVerdicts(const BrickMap& map, const std::vector<BrickWord>& freed, int half_voxel_radius)
-      : freed_(freed),
-        radius_(half_voxel_radius),
+  ScanVerdicts(const Parameters& parameters, const BrickMap& map,
+               const std::vector<BrickWord>& freed)
+      : parameters_(parameters),
+        freed_(freed),
         finder_(map),
         own_freed_(map.size()),
         halo_(map.size()) {}
 
-  /// @param scan_points points of the whole scan, those left out included, which stay static
-  Mask of(const LatticeScan& scan, std::size_t scan_points);
+  Mask of(const Scan& scan);
 
  private:
+  const Parameters& parameters_;
   const std::vector<BrickWord>& freed_;
-  int radius_;
+  LatticeScan points_;
   BrickFinder finder_;
   VoxelMarks own_freed_;  ///< Freed voxels in which the scan has a point.
   VoxelMarks halo_;       ///< These voxels and all voxels near them.
 };
 
-Mask ScanVerdicts::of(const LatticeScan& scan, std::size_t scan_points) {
+Mask ScanVerdicts::of(const Scan& scan) {
+  put_on_lattice(scan, parameters_, points_);
   own_freed_.clear();
   halo_.clear();
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    const VoxelIndex& voxel = scan.voxels[k];
+  const int radius = parameters_.subvoxel_accuracy ? parameters_.half_voxel_radius : 0;
+  for (const VoxelIndex& voxel : points_.voxels) {
     const BrickId brick = finder_.find(brick_of(voxel));
     const BrickWord bit = voxel_bit(voxel);
     if ((freed_[brick] & bit & ~own_freed_.at(brick)) == 0) continue;
     own_freed_.set(brick, bit);
     // Freed voxels of the halo are dynamic by themselves: including them changes nothing.
-    for_each_brick_near(finder_, voxel, radius_,
+    for_each_brick_near(finder_, voxel, radius,
                         [this](BrickId near, BrickWord voxels) { halo_.set(near, voxels); });
   }
-  Mask dynamic(scan_points, 0);
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    const BrickId brick = finder_.find(brick_of(scan.voxels[k]));
-    const BrickWord bit = voxel_bit(scan.voxels[k]);
-    dynamic[scan.index[k]] = (halo_.at(brick) & bit) != 0 ? 1 : 0;
+  Mask dynamic(scan.size(), 0);  // Points left out stay static.
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const BrickId brick = finder_.find(brick_of(points_.voxels[k]));
+    const BrickWord bit = voxel_bit(points_.voxels[k]);
+    dynamic[points_.index[k]] = (halo_.at(brick) & bit) != 0 ? 1 : 0;
   }
   return dynamic;
 }
@@ -157,13 +158,6 @@ struct BeamWorkspace {
   BrickFinder finder;
   VoxelMarks own;
   BeamWalker walker;
-};
-
-struct AnswerWorkspace {
-  AnswerWorkspace(const BrickMap& map, const std::vector<BrickWord>& freed, int radius)
-      : verdicts(map, freed, radius) {}
-  LatticeScan points;
-  ScanVerdicts verdicts;
 };
 
 /// One run over a sequence. Scans are read again in each step and never held.
@@ -220,15 +214,13 @@ class Pass {
 
   /// Steps 2.9 and 2.10.
   void answer(const BrickMap& map, const std::vector<BrickWord>& freed, RemovalSink& sink) {
-    const int radius = parameters_.subvoxel_accuracy ? parameters_.half_voxel_radius : 0;
-    Workspaces<AnswerWorkspace> workspaces(
-        [&] { return std::make_unique<AnswerWorkspace>(map, freed, radius); });
+    Workspaces<ScanVerdicts> workspaces(
+        [&] { return std::make_unique<ScanVerdicts>(parameters_, map, freed); });
     for_chunks("peopleremover, answers", 1, workspaces,
-               [&](AnswerWorkspace& work, auto&& each_scan) {
+               [&](ScanVerdicts& verdicts, auto&& each_scan) {
                  each_scan([&](const Scan& scan) {
                    const StageScope timed(context_.times, "answer");
-                   put_on_lattice(scan, parameters_, work.points);
-                   sink.accept(scan.index, work.verdicts.of(work.points, scan.size()));
+                   sink.accept(scan.index, verdicts.of(scan));
                  });
                });
   }

@@ -33,9 +33,6 @@ struct Parameters {
   }
 };
 
-/// Names, units, legal ranges, sources and a sentence for each parameter.
-const ParameterTable<Parameters>& parameter_table();
-
 /// The Peopleremover: change detection by traversing a voxel occupancy grid (Schauer and Nuechter,
 /// RA-L 3(3), 2018, and ISPRS J. 2018), written from a description of the public program (3DTK).
 ///

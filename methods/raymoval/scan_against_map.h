@@ -9,7 +9,7 @@
 #include "methods/raymoval/kernels/first_hit.h"
 #include "methods/raymoval/kernels/voxel_runs.h"
 #include "methods/raymoval/map_reference.h"
-#include "methods/raymoval/parameters.h"
+#include "methods/raymoval/raymoval.h"
 #include "methods/raymoval/static_map.h"
 #include "methods/remover.h"
 

@@ -29,23 +29,9 @@ class StaticMap {
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
   [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
-  [[nodiscard]] bool was_erased(const VoxelIndex& voxel) const {
-    return was_erased(occupied_.find_slot(OccupancyMap::brick_of(voxel)), voxel);
-  }
-  /// The same for a voxel of the brick `slot`, which may be kNoBrick.
-  [[nodiscard]] bool was_erased(Slot slot, const VoxelIndex& voxel) const {
-    const Brick* erased = erased_in(slot);
-    return erased != nullptr && erased->contains(voxel.x(), voxel.y(), voxel.z());
-  }
-
   /// Brick and state of each voxel, in one pass. Quick where neighbours follow each other.
   void look_up(const std::vector<VoxelIndex>& voxels, int threads, VoxelLookup& found) const;
 
-  /// Adds a static point's voxel, unless it was erased.
-  void integrate(const VoxelIndex& voxel) {
-    integrate(occupied_.make_brick(OccupancyMap::brick_of(voxel)), voxel);
-  }
-  void integrate(Slot slot, const VoxelIndex& voxel);
   /// Adds the voxels of all points that are not dynamic.
   /// @param found what `look_up` gave for them; voxels may have been erased since
   void integrate(const std::vector<VoxelIndex>& voxels, const VoxelLookup& found,
@@ -59,6 +45,13 @@ class StaticMap {
   void find_slots(const std::vector<VoxelIndex>& voxels, std::size_t begin, std::size_t end,
                   std::vector<Slot>& slots) const;
   [[nodiscard]] VoxelState state(Slot slot, const VoxelIndex& voxel) const;
+  /// Adds a voxel of the brick `slot`, unless it was erased.
+  void integrate(Slot slot, const VoxelIndex& voxel);
+  /// @param slot may be kNoBrick
+  [[nodiscard]] bool was_erased(Slot slot, const VoxelIndex& voxel) const {
+    const Brick* erased = erased_in(slot);
+    return erased != nullptr && erased->contains(voxel.x(), voxel.y(), voxel.z());
+  }
   static constexpr std::uint32_t kNothingErased = ~std::uint32_t{0};
 
   /// Erased voxels of a brick (`slot` may be kNoBrick); null if it has none.

@@ -162,15 +162,11 @@ double cluster_points_at(double range, const Parameters& parameters) {
   return std::max(3.0, parameters.cluster_points * shrink * shrink);
 }
 
-double cluster_width_at(double /*range*/, const Parameters& parameters) {
-  return parameters.cluster_width;
-}
-
 bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
                            const Parameters& parameters) {
   const double range = median_range(members, points);
   return static_cast<double>(members.size()) >= cluster_points_at(range, parameters) &&
-         extent_of(members, points).width() >= cluster_width_at(range, parameters);
+         extent_of(members, points).width() >= parameters.cluster_width;
 }
 
 double coverage(const std::vector<int>& members, const ScanPoints& points,

@@ -6,7 +6,7 @@
 
 #include "core/scan/scan.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
-#include "methods/raymoval/parameters.h"
+#include "methods/raymoval/raymoval.h"
 
 namespace raymoval::raymoval_method {
 
@@ -20,8 +20,6 @@ struct Extent {
   }
   /// diam(C) of eq. 12: diagonal of the box seen from above, metres.
   [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
-  /// Shortest of the three sides, metres (eq. 15).
-  [[nodiscard]] double thinnest_side() const { return (high - low).minCoeff(); }
 };
 
 /// The component number of each voxel. Numbers begin at 0, in the order of the components' first
@@ -49,10 +47,8 @@ struct ScanPoints {
 /// square of the range as the solid angle of an object does, at least 3.
 double cluster_points_at(double range, const Parameters& parameters);
 
-/// d(r) of eq. 13: width a cluster at range r needs, metres; the same at all ranges.
-double cluster_width_at(double range, const Parameters& parameters);
-
-/// Eqs 12-13: whether a cluster is large enough to be an object.
+/// Eqs 12-13: whether a cluster is large enough to be an object. The width that it needs, d(r), is
+/// the same at all ranges.
 bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
                            const Parameters& parameters);
 

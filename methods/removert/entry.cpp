@@ -2,6 +2,77 @@
 #include "methods/removert/removert.h"
 
 namespace raymoval {
+namespace removert_method {
+namespace {
+
+using Table = ParameterTable<Parameters>;
+using P = Parameters;
+constexpr const char* kOurs = "not in the paper";
+constexpr const char* kCode = "public code";
+constexpr const char* kList = "KITTI settings of the ROS-free port";
+constexpr const char* kRevertList = "paper, RM3+RV1 (0.55 deg, unverified)";
+constexpr const char* kUnit = "px/deg";
+
+void add_passes_and_test(Table& table) {
+  table
+      .number("remove_resolution_1", &P::remove_resolution_1,
+              {kUnit, 0, 20, kList, "Pixels per degree of the first remove pass; 0: no pass."})
+      .number("remove_resolution_2", &P::remove_resolution_2,
+              {kUnit, 0, 20, kList,
+               "Pixels per degree of the second remove pass, usually fewer than of the first; 0: "
+               "no pass."})
+      .number("remove_resolution_3", &P::remove_resolution_3,
+              {kUnit, 0, 20, kList, "Pixels per degree of the third remove pass; 0: no pass."})
+      .number("revert_resolution_1", &P::revert_resolution_1,
+              {kUnit, 0, 20, kRevertList,
+               "Pixels per degree of the first revert pass, below the last remove pass's; 0: no "
+               "pass. With fewer pixels more points come back."})
+      .number("gamma", &P::gamma,
+              {"", 0, 0.99, kCode,
+               "A map point is dynamic if it is nearer than the scan's return by more than this "
+               "share of the return's range."})
+      .number("diff_upper", &P::diff_upper,
+              {"m", 0, 9999, kCode, "Differences from this on are not believed."})
+      .choice("difference", &P::difference,
+              {{"signed", DifferenceRule::kSigned}, {"absolute", DifferenceRule::kAbsolute}},
+              {.source = "lt-mapper (signed), public code (absolute)",
+               .sentence = "Whether map points behind the scan's return are dynamic too "
+                           "(absolute)."});
+}
+
+void add_image_and_map(Table& table) {
+  table
+      .number("vertical_fov", &P::vertical_fov,
+              {"deg", 1, 180, kCode, "Height of the images, half of it above the horizon."})
+      .number("horizontal_fov", &P::horizontal_fov,
+              {"deg", 1, 360, kCode, "Width of the images, half of it to the left."})
+      .flag("clamp_fov", &P::clamp_fov,
+            {.source = kCode,
+             .sentence = "Put points outside the field of view into the border pixels instead of "
+                         "leaving them out."})
+      .flag("wrap_azimuth", &P::wrap_azimuth,
+            {.source = kOurs,
+             .sentence = "In a full circle, join the half column right of -180 deg and the one "
+                         "left of +180 deg.",
+             .acts_when = "horizontal_fov is 360"})
+      .flag("update_between_passes", &P::update_between_passes,
+            {.source = kCode,
+             .sentence = "Take flagged points out of the map before the next pass, so that it sees "
+                         "what they hid; the ROS-free port does not."})
+      .number("map_voxel", &P::map_voxel,
+              {"m", 0.01, 2, kCode, "Edge of the cells whose centroids are the map."});
+}
+
+Table make_table() {
+  Table table;
+  add_passes_and_test(table);
+  add_image_and_map(table);
+  return table;
+}
+
+}  // namespace
+}  // namespace removert_method
+
 namespace {
 
 /// Everything the public code and its port share.
@@ -73,7 +144,7 @@ MethodEntry removert_entry() {
       "is empty.",
   };
   entry.variants = removert_variants();
-  entry.bind(removert_method::parameter_table(), removert_method::make_removert);
+  entry.bind(removert_method::make_table(), removert_method::make_removert);
   return entry;
 }
 

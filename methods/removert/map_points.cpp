@@ -53,13 +53,6 @@ void MapPoints::reserve(std::size_t points) {
   id.reserve(points);
 }
 
-void MapPoints::append(const MapPoints& from, std::size_t i) {
-  x.push_back(from.x[i]);
-  y.push_back(from.y[i]);
-  z.push_back(from.z[i]);
-  id.push_back(from.id[i]);
-}
-
 void MapPoints::close() {
   groups.clear();
   Eigen::AlignedBox3d group_box;
@@ -76,45 +69,22 @@ void MapPoints::close() {
   }
 }
 
-MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken) {
-  const auto left = std::count(taken.begin(), taken.end(), std::uint8_t{0});
-  const std::size_t count = taken.size() - static_cast<std::size_t>(left);
-  MapPoints out;
-  MapPoints kept;
-  out.reserve(count);
-  kept.reserve(points.size() - count);
+MapPoints marked_points(const MapPoints& points, const Mask& marks, std::uint8_t mark) {
+  MapPoints chosen;
+  chosen.reserve(static_cast<std::size_t>(std::count(marks.begin(), marks.end(), mark)));
   for (const Block& block : points.blocks) {
-    open_block(out, block);
-    open_block(kept, block);
+    open_block(chosen, block);
     for (std::size_t i = block.begin; i < block.end; ++i) {
-      (taken[i] != 0 ? out : kept).append(points, i);
+      if (marks[i] != mark) continue;
+      chosen.x.push_back(points.x[i]);
+      chosen.y.push_back(points.y[i]);
+      chosen.z.push_back(points.z[i]);
+      chosen.id.push_back(points.id[i]);
     }
-    close_block(out);
-    close_block(kept);
+    close_block(chosen);
   }
-  out.close();
-  kept.close();
-  points = std::move(kept);
-  return out;
-}
-
-MapPoints united(const MapPoints& a, const MapPoints& b) {
-  MapPoints both;
-  both.reserve(a.size() + b.size());
-  const auto add_block = [&both](const MapPoints& from, const Block& block) {
-    if (both.blocks.empty() || both.blocks.back().key != block.key) open_block(both, block);
-    for (std::size_t i = block.begin; i < block.end; ++i) both.append(from, i);
-    both.blocks.back().end = both.size();
-  };
-  auto next_a = a.blocks.begin();
-  auto next_b = b.blocks.begin();
-  while (next_a != a.blocks.end() || next_b != b.blocks.end()) {
-    const bool from_a = next_b == b.blocks.end() ||
-                        (next_a != a.blocks.end() && !comes_first(next_b->key, next_a->key));
-    from_a ? add_block(a, *next_a++) : add_block(b, *next_b++);
-  }
-  both.close();
-  return both;
+  chosen.close();
+  return chosen;
 }
 
 CellLattice::Place CellLattice::place_of(const Eigen::Vector3d& world) const {

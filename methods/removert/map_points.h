@@ -43,16 +43,12 @@ struct MapPoints {
     return block.centre + Eigen::Vector3d(x[i], y[i], z[i]);
   }
   void reserve(std::size_t points);
-  void append(const MapPoints& from, std::size_t i);
   /// Finds balls and groups, once all blocks are there in order.
   void close();
 };
 
-/// Moves the points with `taken[i] != 0` out of `points`. @return the moved points
-MapPoints take_points(MapPoints& points, const std::vector<std::uint8_t>& taken);
-
-/// Points of `a` and `b`, two parts of one map, in the order of the map.
-MapPoints united(const MapPoints& a, const MapPoints& b);
+/// The points with `marks[i] == mark`, in the order of the map.
+MapPoints marked_points(const MapPoints& points, const Mask& marks, std::uint8_t mark);
 
 /// Cells of the map: cubes of `voxel` metres of the world lattice, in blocks of about 0.8 m.
 class CellLattice {

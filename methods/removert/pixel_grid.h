@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/removert/parameters.h"
+#include "methods/removert/removert.h"
 
 namespace raymoval::removert_method {
 

@@ -3,6 +3,8 @@
 // Kim and Kim, IROS 2020. What is decided on what evidence stands in README.md.
 #include "methods/removert/removert.h"
 
+#include <algorithm>
+
 #include "methods/common/remover_from.h"
 #include "methods/common/scan_passes.h"
 #include "methods/removert/map_points.h"
@@ -25,9 +27,11 @@ class RemovertRun {
                                                                        : Candidates::kInFront) {}
 
   void run(RemovalSink& sink) {
-    MapPoints map = collect_map();
-    MapPoints removed = remove(map);
-    if (parameters_.revert_resolution_1 > 0.0) revert(removed);
+    MapPoints removed = remove(collect_map());
+    // Revert: of the removed points, seen alone, only those that a scan flags again are removed.
+    if (parameters_.revert_resolution_1 > 0.0) {
+      removed = marked_points(removed, compare(removed, parameters_.revert_resolution_1), 1);
+    }
     answer(removed, sink);
   }
 
@@ -43,33 +47,25 @@ class RemovertRun {
     return builder.finish();
   }
 
-  /// One pass per resolution, fine to coarse. @return what was taken out of `map`
-  MapPoints remove(MapPoints& map) {
-    MapPoints removed;
-    std::vector<std::uint8_t> flagged(map.size(), 0);
-    for (const double resolution : parameters_.remove_resolutions()) {
-      const std::vector<std::uint32_t> votes = compare(map, resolution);
-      for (std::size_t i = 0; i < flagged.size(); ++i) {
-        if (votes[i] > 0) flagged[i] = 1;
+  /// One pass per resolution, fine to coarse. @return the points of `map` that are flagged
+  MapPoints remove(const MapPoints& map) {
+    Mask flagged(map.size(), 0);
+    for (const double resolution :
+         {parameters_.remove_resolution_1, parameters_.remove_resolution_2,
+          parameters_.remove_resolution_3}) {
+      if (resolution == 0.0) continue;
+      const bool updates = parameters_.update_between_passes;
+      const Mask of_pass = compare(updates ? marked_points(map, flagged, 0) : map, resolution);
+      auto next = of_pass.begin();
+      for (std::uint8_t& flag : flagged) {
+        if (!updates || flag == 0) flag = std::max(flag, *next++);
       }
-      if (!parameters_.update_between_passes) continue;
-      removed = united(removed, take_points(map, flagged));
-      flagged.assign(map.size(), 0);
     }
-    if (!parameters_.update_between_passes) removed = take_points(map, flagged);
-    return removed;
+    return marked_points(map, flagged, 1);
   }
 
-  /// Compares the removed points alone with all scans; those not flagged are kept after all.
-  void revert(MapPoints& removed) {
-    const std::vector<std::uint32_t> votes = compare(removed, parameters_.revert_resolution_1);
-    std::vector<std::uint8_t> restored(removed.size(), 0);
-    for (std::size_t i = 0; i < restored.size(); ++i) restored[i] = votes[i] == 0 ? 1 : 0;
-    take_points(removed, restored);
-  }
-
-  /// How many scans flag each point of `map`, which stays as it is meanwhile.
-  std::vector<std::uint32_t> compare(const MapPoints& map, double resolution) {
+  /// 1 for each point of `map` that a scan flags.
+  Mask compare(const MapPoints& map, double resolution) {
     const PixelGrid grid(parameters_, resolution);
     VisibilityPass pass(map, parameters_, candidates_);
     for_scans_in_parallel("removert, range images", scans_, all_scans(scans_), context_,
@@ -78,7 +74,7 @@ class RemovertRun {
                             const StageScope stage(context_.times, "visibility");
                             pass.show(image, scan.T_world_sensor.inverse());
                           });
-    return pass.dynamic_votes();
+    return pass.flagged();
   }
 
   [[nodiscard]] ScanImage image_of(const Scan& scan, const PixelGrid& grid) const {

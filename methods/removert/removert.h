@@ -4,10 +4,35 @@
 #include <memory>
 
 #include "methods/method_entry.h"
-#include "methods/removert/parameters.h"
 
 namespace raymoval {
 namespace removert_method {
+
+enum class DifferenceRule {
+  kSigned,    ///< Only map points in front of the scan's return are dynamic.
+  kAbsolute,  ///< Map points behind it too, as the public code does.
+};
+
+/// Units, ranges and sources stand in entry.cpp. A resolution of 0 leaves its pass out.
+struct Parameters {
+  double remove_resolution_1 = 2.5;
+  double remove_resolution_2 = 2.2;
+  double remove_resolution_3 = 2.0;
+  double revert_resolution_1 = 0.0;
+
+  double gamma = 0.05;
+  double diff_upper = 200.0;
+  DifferenceRule difference = DifferenceRule::kSigned;
+
+  double vertical_fov = 50.0;
+  double horizontal_fov = 360.0;
+  bool clamp_fov = false;
+  bool wrap_azimuth = true;
+
+  bool update_between_passes = true;
+
+  double map_voxel = 0.05;
+};
 
 /// The method of "Remove, then Revert: Static Point cloud Map Construction using Multiresolution
 /// Range Images" (Kim and Kim, IROS 2020), written from its description; nothing of the public

@@ -117,7 +117,7 @@ VisibilityPass::VisibilityPass(const MapPoints& map, const Parameters& parameter
     : map_(map),
       parameters_(parameters),
       candidates_(candidates),
-      votes_(map.size(), 0),
+      flagged_(map.size(), 0),
       images_([] { return std::make_unique<Image>(); }) {}
 
 void VisibilityPass::show(const ScanImage& scan, const Pose& T_image_world) {
@@ -140,7 +140,7 @@ void VisibilityPass::show(const ScanImage& scan, const Pose& T_image_world) {
         looked_at = 0;
       }
     }
-    vote(scan, image);
+    flag(scan, image);
   });
 }
 
@@ -203,7 +203,7 @@ void VisibilityPass::take_if_nearest(const View& view, const Eigen::Vector3d& po
 }
 
 /// Section 1 of the method: p_M(u) is dynamic iff diff(u) > tau(u).
-void VisibilityPass::vote(const ScanImage& scan, Image& image) {
+void VisibilityPass::flag(const ScanImage& scan, Image& image) {
   for (const int pixel : image.touched) {
     const auto u = static_cast<std::size_t>(pixel);
     const Nearest nearest = image.pixels[u];
@@ -213,9 +213,8 @@ void VisibilityPass::vote(const ScanImage& scan, Image& image) {
     const bool dynamic =
         difference > static_cast<double>(threshold(scan.nearest[u], parameters_)) &&
         difference < parameters_.diff_upper;
-    // The sum does not depend on the order of scans.
-    std::atomic_ref<std::uint32_t> votes(votes_[nearest.point]);
-    if (dynamic) votes.fetch_add(1, std::memory_order_relaxed);
+    std::atomic_ref<std::uint8_t> flagged(flagged_[nearest.point]);
+    if (dynamic) flagged.store(1, std::memory_order_relaxed);
   }
   image.touched.clear();
 }

@@ -11,7 +11,7 @@
 
 namespace raymoval::removert_method {
 
-/// Compares a frozen map with scans, one range image each. The votes are the same in whatever order
+/// Compares a frozen map with scans, one range image each. The flags are the same in whatever order
 /// and from however many threads scans are shown.
 ///
 /// Map points are sorted out by bounds on blocks of them and in single precision; what is left is
@@ -20,12 +20,12 @@ class VisibilityPass {
  public:
   VisibilityPass(const MapPoints& map, const Parameters& parameters, Candidates candidates);
 
-  /// Votes of one scan. Thread-safe.
+  /// Flags what one scan sees through. Thread-safe.
   /// @param image made with the candidates of this pass
   void show(const ScanImage& image, const Pose& T_image_world);
 
-  /// Of each map point: scans in which it is the nearest in its pixel and dynamic (n_DM).
-  [[nodiscard]] const std::vector<std::uint32_t>& dynamic_votes() const { return votes_; }
+  /// 1 for each map point that was the nearest in its pixel and dynamic in some scan.
+  [[nodiscard]] const Mask& flagged() const { return flagged_; }
 
  private:
   struct Nearest {
@@ -45,12 +45,12 @@ class VisibilityPass {
   void look_at_block(const View& view, const Block& block, float limit, Image& image) const;
   static void take_if_nearest(const View& view, const Eigen::Vector3d& point, std::size_t id,
                               Image& image);
-  void vote(const ScanImage& scan, Image& image);
+  void flag(const ScanImage& scan, Image& image);
 
   const MapPoints& map_;
   const Parameters& parameters_;
   Candidates candidates_;
-  std::vector<std::uint32_t> votes_;
+  Mask flagged_;
   Workspaces<Image> images_;
 };
 

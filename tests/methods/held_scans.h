@@ -9,6 +9,11 @@
 
 namespace raymoval::toy {
 
+/// The pose of a sensor at (x, y, z) whose axes are the world's.
+inline Pose pose_at(double x, double y, double z) {
+  return Pose(Eigen::Translation3d(x, y, z));
+}
+
 /// Scans held in memory.
 class HeldScans : public ScanSource {
  public:
@@ -17,12 +22,16 @@ class HeldScans : public ScanSource {
   /// @param points sensor frame, metres
   void add(std::vector<Eigen::Vector3f> points, const Pose& T_world_sensor = Pose::Identity()) {
     Scan scan;
-    scan.index = scans_.size();
-    scan.name = std::to_string(scan.index);
-    scan.time_s = 0.1 * static_cast<double>(scan.index);
+    scan.name = std::to_string(scans_.size());
+    scan.time_s = 0.1 * static_cast<double>(scans_.size());
     scan.T_world_sensor = T_world_sensor;
-    scan.stored_point_count = points.size();
     scan.points = std::move(points);
+    add_scan(std::move(scan));
+  }
+  /// Adds a scan as it is given but for its position among the others.
+  void add_scan(Scan scan) {
+    scan.index = scans_.size();
+    scan.stored_point_count = scan.points.size();
     scans_.push_back(std::move(scan));
   }
   /// @param world points in world coordinates; the sensor frame's single precision rounds them
@@ -42,10 +51,18 @@ class HeldScans : public ScanSource {
   [[nodiscard]] Scan load(std::size_t i) const override { return scans_.at(i); }
   [[nodiscard]] Pose pose(std::size_t i) const override { return scans_.at(i).T_world_sensor; }
   [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
+  [[nodiscard]] const std::vector<Scan>& scans() const { return scans_; }
 
  private:
   std::vector<Scan> scans_;
   SensorModel sensor_;
 };
+
+/// Points of all scans.
+inline std::size_t point_count(const HeldScans& world) {
+  std::size_t points = 0;
+  for (const Scan& scan : world.scans()) points += scan.size();
+  return points;
+}
 
 }  // namespace raymoval::toy

@@ -14,6 +14,12 @@
 
 namespace raymoval::toy {
 
+/// The unit vector at an azimuth and an elevation, radians.
+inline Eigen::Vector3d direction(double azimuth, double elevation) {
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
 /// Axis-aligned solid in world coordinates, metres.
 struct Box {
   Eigen::Vector3d low, high;
@@ -83,8 +89,7 @@ class World : public HeldScans {
   void add_return(const std::vector<Box>& boxes, const Pose& T_world_sensor, double azimuth,
                   double elevation, std::vector<Eigen::Vector3f>& points,
                   std::vector<int>& hit) const {
-    const Eigen::Vector3d u(std::cos(azimuth) * std::cos(elevation),
-                            std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
+    const Eigen::Vector3d u = direction(azimuth, elevation);
     double nearest = scanner_.range;
     int box_hit = -1;
     for (std::size_t b = 0; b < boxes.size(); ++b) {

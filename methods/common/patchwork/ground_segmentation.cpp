@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/angle.h"
 #include "core/parallel.h"
@@ -32,7 +33,166 @@ double first_height(const GroundParameters& parameters) {
                                   : std::numeric_limits<double>::infinity();
 }
 
+// How many planes of a ring are remembered, and deviations above their mean.
+constexpr std::size_t kMostStored = 1000;
+constexpr double kElevationDeviations = 2.0, kInnermostElevationDeviations = 3.0;
+constexpr double kFlatnessDeviations = 1.0;
+
+void push(std::deque<double>& values, double value) {
+  values.push_back(value);
+  if (values.size() > kMostStored) values.pop_front();
+}
+
+/// In the innermost zone, what lies deeper than so many heights of the sensor is mirrored and no
+/// measure of where the ground begins ('adaptive_seed_selection_margin' of Patchwork++).
+constexpr double kDeepestGround = 1.2;
+
+/// One bin while its planes are fitted.
+class BinFit {
+ public:
+  BinFit(std::span<const Eigen::Vector3d> points, const BinSurroundings& surroundings,
+         const GroundParameters& parameters, std::span<std::uint8_t> ground)
+      : points_(points),
+        parameters_(parameters),
+        ground_(ground),
+        left_(points.size(), 1),
+        deepest_(surroundings.is_innermost ? -kDeepestGround * surroundings.sensor_height
+                                           : -std::numeric_limits<double>::infinity()) {}
+
+  /// R-VPF. @return whether any point is left
+  bool take_walls_out() {
+    for (int round = 0; round < parameters_.plane_rounds; ++round) {
+      choose_seeds(parameters_.wall_seed_height);
+      const Plane plane = fit_plane(points_, ground_).plane;
+      if (plane.normal.z() >= parameters_.upright) return true;
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (std::abs(plane.height_of(points_[i])) < parameters_.wall_distance) left_[i] = 0;
+      }
+      if (std::find(left_.begin(), left_.end(), 1) == left_.end()) return false;
+    }
+    return true;
+  }
+
+  /// R-GPF.
+  PlaneFit fit_ground() {
+    choose_seeds(parameters_.seed_height);
+    PlaneFit fit = fit_plane(points_, ground_);
+    for (int round = 0; round < parameters_.plane_rounds; ++round) {
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        const bool is_near = fit.plane.height_of(points_[i]) < parameters_.ground_distance;
+        ground_[i] = left_[i] != 0 && is_near ? 1 : 0;
+      }
+      // Some of the points that the plane was fitted to are not above it, so that some are chosen.
+      fit = fit_plane(points_, ground_);
+    }
+    return fit;
+  }
+
+ private:
+  /// Mean height of the lowest points that are left.
+  double lowest_height() {
+    heights_.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (left_[i] != 0 && points_[i].z() >= deepest_) heights_.push_back(points_[i].z());
+    }
+    // All are deep: the ground falls. All of them seed it.
+    if (heights_.empty()) return std::numeric_limits<double>::infinity();
+    const std::size_t count =
+        std::min(heights_.size(), static_cast<std::size_t>(parameters_.lowest_points));
+    const auto end = heights_.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(heights_.begin(), end - 1, heights_.end());
+    std::sort(heights_.begin(), end);  // So that the order of points changes no digit.
+    double sum = 0.0;
+    for (auto height = heights_.begin(); height != end; ++height) sum += *height;
+    return sum / static_cast<double>(count);
+  }
+  void choose_seeds(double above) {
+    const double limit = lowest_height() + above;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      ground_[i] = left_[i] != 0 && points_[i].z() < limit ? 1 : 0;
+    }
+  }
+
+  std::span<const Eigen::Vector3d> points_;
+  const GroundParameters& parameters_;
+  std::span<std::uint8_t> ground_;
+  Mask left_;  ///< 1 = in no wall.
+  double deepest_;
+  std::vector<double> heights_;  ///< Scratch.
+};
+
 }  // namespace
+
+ZoneModel::ZoneModel(double from, double to)
+    : bounds_{from, (7.0 * from + to) / 8.0, (3.0 * from + to) / 4.0, (from + to) / 2.0, to} {}
+
+int ZoneModel::bin_of(double x, double y) const {
+  const double distance = std::sqrt(x * x + y * y);
+  if (!(distance >= bounds_.front() && distance <= bounds_.back())) return kNone;
+  std::size_t zone = 0;
+  int first = 0;
+  while (zone + 1 < kRings.size() && distance >= bounds_[zone + 1]) {
+    first += kRings[zone] * kSectors[zone];
+    ++zone;
+  }
+  const double width = (bounds_[zone + 1] - bounds_[zone]) / kRings[zone];
+  const int ring = static_cast<int>((distance - bounds_[zone]) / width);
+  const double angle = std::atan2(y, x);
+  const int sector =
+      static_cast<int>((angle < 0.0 ? angle + kTurn : angle) / kTurn * kSectors[zone]);
+  return first + std::min(ring, kRings[zone] - 1) * kSectors[zone] +
+         std::min(sector, kSectors[zone] - 1);
+}
+
+int ZoneModel::first_bin(int ring) {
+  int first = 0;
+  for (std::size_t zone = 0; zone < kRings.size(); ++zone) {
+    const int inside = std::min(ring, kRings[zone]);
+    first += inside * kSectors[zone];
+    ring -= inside;
+  }
+  return first;
+}
+
+MeanAndDeviation mean_and_deviation(const std::deque<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  MeanAndDeviation found;
+  found.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - found.mean) * (value - found.mean);
+  if (values.size() > 1) found.deviation = std::sqrt(squares / (count - 1.0));
+  return found;
+}
+
+void GroundThresholds::store(int ring, double elevation, double flatness) {
+  push(rings_.at(index(ring)).elevations, elevation);
+  push(rings_.at(index(ring)).flatnesses, flatness);
+}
+
+void GroundThresholds::adapt() {
+  for (std::size_t i = 0; i < rings_.size(); ++i) {
+    Ring& ring = rings_[i];
+    if (ring.elevations.empty()) continue;
+    const MeanAndDeviation elevation = mean_and_deviation(ring.elevations);
+    const MeanAndDeviation flatness = mean_and_deviation(ring.flatnesses);
+    const double deviations = i == 0 ? kInnermostElevationDeviations : kElevationDeviations;
+    ring.elevation = elevation.mean + deviations * elevation.deviation;
+    ring.flatness = flatness.mean + kFlatnessDeviations * flatness.deviation;
+    if (i == 0) sensor_height_ = -elevation.mean;
+  }
+}
+
+std::optional<PlaneFit> find_bin_ground(std::span<const Eigen::Vector3d> points,
+                                        const BinSurroundings& surroundings,
+                                        const GroundParameters& parameters,
+                                        std::span<std::uint8_t> ground) {
+  BinFit bin(points, surroundings, parameters, ground);
+  if (surroundings.is_innermost && !bin.take_walls_out()) {
+    std::fill(ground.begin(), ground.end(), std::uint8_t{0});
+    return std::nullopt;
+  }
+  return bin.fit_ground();
+}
 
 GroundSegmentation::GroundSegmentation(const GroundParameters& parameters)
     : parameters_(parameters),

@@ -1,15 +1,99 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/scan/scan.h"
-#include "methods/common/patchwork/bin_ground.h"
-#include "methods/common/patchwork/ground_thresholds.h"
-#include "methods/common/patchwork/zones.h"
+#include "methods/common/patchwork/parameters.h"
+#include "methods/common/plane_fit.h"
 
 namespace raymoval::patchwork {
+
+/// The concentric zone model: four zones around the sensor, each of rings of equal width that are
+/// cut into sectors of equal angle.
+class ZoneModel {
+ public:
+  static constexpr int kNone = -1;
+  static constexpr std::array<int, 4> kRings{2, 4, 4, 4};
+  static constexpr std::array<int, 4> kSectors{16, 32, 54, 32};
+  static constexpr int kAllRings = 14;
+  static constexpr int kAllBins = 2 * 16 + 4 * 32 + 4 * 54 + 4 * 32;
+
+  /// @param from, to horizontal distances where the first zone begins and the last one ends, metres
+  ZoneModel(double from, double to);
+
+  /// The bin of a place, `kNone` if it lies in no zone. Sector 0 begins at +x and goes toward +y.
+  [[nodiscard]] int bin_of(double x, double y) const;
+  /// The first bin of a ring; that of ring `kAllRings` is `kAllBins`.
+  [[nodiscard]] static int first_bin(int ring);
+  [[nodiscard]] static bool is_innermost_zone(int bin) { return bin < kRings[0] * kSectors[0]; }
+
+ private:
+  std::array<double, 5> bounds_;  ///< Where the zones begin, and the last one ends, metres.
+};
+
+/// Rings from the sensor on in which a plane must prove that it is ground. Beyond, an upright one
+/// is ground.
+inline constexpr int kProvedRings = 4;
+
+struct MeanAndDeviation {
+  double mean = 0.0, deviation = 0.0;
+};
+/// The mean, and the standard deviation of a sample, which is 0 for one value.
+/// @param values at least one
+MeanAndDeviation mean_and_deviation(const std::deque<double>& values);
+
+/// What planes of each of the innermost rings are compared with. It adapts after each scan.
+class GroundThresholds {
+ public:
+  /// @param sensor_height metres above the ground; infinite where it is unknown
+  explicit GroundThresholds(double sensor_height) : sensor_height_(sensor_height) {}
+
+  [[nodiscard]] double sensor_height() const { return sensor_height_; }
+  void set_sensor_height(double height) { sensor_height_ = height; }
+  /// A plane whose mean height above the sensor is below this lies low enough, metres.
+  [[nodiscard]] double elevation(int ring) const { return rings_.at(index(ring)).elevation; }
+  /// A plane whose least variance is below this is flat enough, square metres.
+  [[nodiscard]] double flatness(int ring) const { return rings_.at(index(ring)).flatness; }
+
+  /// Remembers a plane of a ring that was low enough. The last 1,000 of each ring count.
+  void store(int ring, double elevation, double flatness);
+  /// Takes in what was stored. The planes of the innermost ring tell the sensor's height anew.
+  void adapt();
+
+ private:
+  struct Ring {
+    double elevation = 0.0, flatness = 0.0;
+    std::deque<double> elevations, flatnesses;
+  };
+  static std::size_t index(int ring) { return static_cast<std::size_t>(ring); }
+
+  double sensor_height_;
+  std::array<Ring, kProvedRings> rings_;
+};
+
+/// What a bin lies like: in the innermost zone there may be mirrored points below the ground, and
+/// walls next to the sensor.
+struct BinSurroundings {
+  bool is_innermost = false;
+  double sensor_height = 0.0;  ///< Metres above the ground; infinite where it is unknown.
+};
+
+/// R-VPF and R-GPF (region-wise fits of vertical and of ground planes): finds the plane that a bin
+/// begins with from below, after walls are taken out in the innermost zone.
+/// @param points level frame with the sensor at the origin, metres; at least one
+/// @param ground as long as the points; becomes 1 for the points near the plane or below it
+/// @return the plane through those points, or nothing where all points belong to walls
+std::optional<PlaneFit> find_bin_ground(std::span<const Eigen::Vector3d> points,
+                                        const BinSurroundings& surroundings,
+                                        const GroundParameters& parameters,
+                                        std::span<std::uint8_t> ground);
 
 /// S. Lee, H. Lim, H. Myung: "Patchwork++: Fast and Robust Ground Segmentation Solving Partial
 /// Under-Segmentation Using 3D Point Cloud", IROS 2022. Tells which points of a scan are ground:

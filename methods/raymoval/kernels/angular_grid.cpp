@@ -50,17 +50,6 @@ Eigen::Vector3d AngularGrid::direction(int bin) const {
           std::sin(elevation)};
 }
 
-DirectionTable::DirectionTable(const AngularGrid& grid) {
-  for (int i = 0; i < grid.azimuth_bins; ++i) {
-    const double azimuth = grid.azimuth_centre(i);
-    azimuth_.emplace_back(std::cos(azimuth), std::sin(azimuth));
-  }
-  for (int j = 0; j < grid.elevation_bins; ++j) {
-    const double elevation = grid.elevation_centre(j);
-    elevation_.emplace_back(std::cos(elevation), std::sin(elevation));
-  }
-}
-
 namespace {
 
 constexpr std::size_t kPointGrain = 8192;

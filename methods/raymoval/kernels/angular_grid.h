@@ -45,20 +45,6 @@ struct AngularGrid {
   [[nodiscard]] Eigen::Vector3d direction(int bin) const;
 };
 
-/// Eq. 5 for all bins from one sine and cosine per column and row.
-class DirectionTable {
- public:
-  explicit DirectionTable(const AngularGrid& grid);
-  /// Unit vector of column `i`, row `j` in the sensor frame.
-  [[nodiscard]] Eigen::Vector3d at(std::size_t i, std::size_t j) const {
-    return {azimuth_[i].x() * elevation_[j].x(), azimuth_[i].y() * elevation_[j].x(),
-            elevation_[j].y()};
-  }
-
- private:
-  std::vector<Eigen::Vector2d> azimuth_, elevation_;  ///< Cosine and sine of each centre.
-};
-
 /// A scan sorted into the bins of a grid.
 struct ProjectedScan {
   std::vector<float> range;       ///< The range of each point, metres.

@@ -6,8 +6,6 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "methods/common/workspaces.h"
-#include "methods/raymoval/kernels/first_hit_sweep.h"
 
 namespace raymoval::raymoval_method {
 namespace {
@@ -18,6 +16,7 @@ using sweep::ColumnLists;
 using sweep::Frame;
 using sweep::GridTables;
 using sweep::kGroup;
+using sweep::WallTables;
 
 constexpr double kSteep = 1.55;  // Beyond this elevation the tangent is as good as infinite.
 
@@ -48,39 +47,6 @@ GridTables tables_for(const AngularGrid& grid) {
   }
   return tables;
 }
-
-/// Voxel walls around a sensor: `wall(k, c)` of lattice plane c along axis k.
-class WallTables {
- public:
-  void build(const OccupancyMap& map, const Eigen::Vector3d& position, double range) {
-    constexpr int kMargin = 2 * OccupancyMap::kBrickSide;
-    const VoxelIndex cell = map.voxel_of(position);
-    const int reach = static_cast<int>(std::ceil(range * map.inverse_voxel_size())) + 1;
-    for (int k = 0; k < 3; ++k) {
-      low_[k] = cell[k] - reach;
-      high_[k] = cell[k] + reach;
-      first_[k] = low_[k] - kMargin;
-      auto& walls = walls_[static_cast<std::size_t>(k)];
-      walls.resize(static_cast<std::size_t>(2 * (reach + kMargin) + 1));
-      for (std::size_t i = 0; i < walls.size(); ++i) {
-        const int plane = first_[k] + static_cast<int>(i);
-        walls[i] = static_cast<float>(plane * map.voxel_size() - position[k]);
-      }
-    }
-  }
-  [[nodiscard]] const float* data(std::size_t axis) const { return walls_[axis].data(); }
-  /// First and last voxel within the range.
-  [[nodiscard]] const Eigen::Vector3i& low() const { return low_; }
-  [[nodiscard]] const Eigen::Vector3i& high() const { return high_; }
-  /// Where the walls of a brick begin; it has a voxel within low .. high.
-  [[nodiscard]] std::int32_t brick_offset(Eigen::Index axis, std::int32_t brick) const {
-    return brick * OccupancyMap::kBrickSide - first_[axis];
-  }
-
- private:
-  std::array<std::vector<float>, 3> walls_;
-  Eigen::Vector3i low_, high_, first_;
-};
 
 /// Adds the tile's bricks that are within range.
 void gather_tile(std::span<const OccupancyMap::BrickHead> heads, const WallTables& walls,
@@ -209,103 +175,68 @@ std::array<int, 2> level_axes(const std::array<double, 3>& up) {
 
 }  // namespace
 
-class FirstHitCaster::State {
- public:
-  State(const AngularGrid& grid, const RayLimits& limits)
-      : grid_(grid), limits_(limits), tables_(tables_for(grid)) {
-    all_.ask_for_all(grid);
-  }
-
-  [[nodiscard]] const WantedBins& all() const { return all_; }
-
-  void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
-            FirstHitImage& image) {
-    map.update_boxes(threads);
-    Frame frame = start_frame(map, T_world_sensor);
-    frame.wanted = &wanted;
-    gather_bricks(map, walls_, frame.maximum_range, bricks_);
-    parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
-      sweep::measure_bricks(frame, begin, end);
-    });
-    sort_by_distance(bricks_, starts_, order_);
-    image.grid = grid_;
-    image.T_world_sensor = T_world_sensor;
-    image.limits = limits_;
-    image.directions = directions_;
-    image.range.resize(static_cast<std::size_t>(grid_.size()));
-    sweep(frame, threads, image.range.data());
-  }
-
- private:
-  Frame start_frame(const OccupancyMap& map, const Pose& T_world_sensor) {
-    walls_.build(map, T_world_sensor.translation(), limits_.maximum_range);
-    Frame frame;
-    frame.map = &map;
-    frame.grid = &tables_;
-    frame.bricks = &bricks_;
-    frame.order = &order_;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      frame.x_axis[k] = T_world_sensor.linear()(axis, 0);
-      frame.y_axis[k] = T_world_sensor.linear()(axis, 1);
-      frame.up[k] = T_world_sensor.linear()(axis, 2);
-      frame.planes[k] = walls_.data(k);
-    }
-    frame.level_axes = level_axes(frame.up);
-    frame.minimum_range = static_cast<float>(limits_.minimum_range);
-    frame.maximum_range = static_cast<float>(limits_.maximum_range);
-    frame.number = ++images_;
-    frame.slack = static_cast<float>(1e-4 + 2e-6 * limits_.maximum_range);
-    return frame;
-  }
-
-  /// Each thread lists the bricks of one part of the circle; the parts are then swept in smaller
-  /// pieces, some of which take longer than others.
-  void sweep(const Frame& frame, int threads, float* range) {
-    constexpr std::size_t kPiece = kGroup;
-    const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
-    const auto parts = static_cast<std::size_t>(std::max(threads, 1));
-    const std::size_t width = (columns / parts / kPiece + 1) * kPiece;
-    lists_.resize((columns + width - 1) / width);
-    parallel_chunks(threads, columns, width, [&](std::size_t begin, std::size_t end) {
-      list_columns(frame, static_cast<int>(begin), static_cast<int>(end), lists_[begin / width]);
-    });
-    const std::size_t piece = threads <= 1 ? width : kPiece;
-    parallel_chunks(threads, columns, piece, [&](std::size_t begin, std::size_t end) {
-      scratch_.with_one([&](sweep::Scratch& scratch) {
-        sweep::sweep_columns(frame, lists_[begin / width], static_cast<int>(begin),
-                             static_cast<int>(end), scratch, range);
-      });
-    });
-  }
-
-  AngularGrid grid_;
-  RayLimits limits_;
-  WantedBins all_;
-  std::shared_ptr<const DirectionTable> directions_ = std::make_shared<DirectionTable>(grid_);
-  GridTables tables_;
-  WallTables walls_;
-  BrickList bricks_;
-  std::vector<std::uint32_t> starts_, order_;
-  std::vector<sweep::ColumnLists> lists_;
-  Workspaces<sweep::Scratch> scratch_{[] { return std::make_unique<sweep::Scratch>(); }};
-  std::uint64_t images_ = 0;
-};
-
 FirstHitCaster::FirstHitCaster(const AngularGrid& grid, const RayLimits& limits)
-    : state_(std::make_unique<State>(grid, limits)) {}
-FirstHitCaster::~FirstHitCaster() = default;
-FirstHitCaster::FirstHitCaster(FirstHitCaster&&) noexcept = default;
-FirstHitCaster& FirstHitCaster::operator=(FirstHitCaster&&) noexcept = default;
-
-void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, int threads,
-                          FirstHitImage& image) {
-  state_->cast(map, T_world_sensor, state_->all(), threads, image);
+    : grid_(grid), limits_(limits), tables_(tables_for(grid)) {
+  all_.ask_for_all(grid);
 }
 
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted,
                           int threads, FirstHitImage& image) {
-  state_->cast(map, T_world_sensor, wanted, threads, image);
+  map.update_boxes(threads);
+  Frame frame = start_frame(map, T_world_sensor);
+  frame.wanted = &wanted;
+  gather_bricks(map, walls_, frame.maximum_range, bricks_);
+  parallel_chunks(threads, bricks_.count, 32 * kGroup, [&](std::size_t begin, std::size_t end) {
+    sweep::measure_bricks(frame, begin, end);
+  });
+  sort_by_distance(bricks_, starts_, order_);
+  image.grid = grid_;
+  image.T_world_sensor = T_world_sensor;
+  image.limits = limits_;
+  image.range.resize(static_cast<std::size_t>(grid_.size()));
+  sweep_image(frame, threads, image.range.data());
+}
+
+Frame FirstHitCaster::start_frame(const OccupancyMap& map, const Pose& T_world_sensor) {
+  walls_.build(map, T_world_sensor.translation(), limits_.maximum_range);
+  Frame frame;
+  frame.map = &map;
+  frame.grid = &tables_;
+  frame.bricks = &bricks_;
+  frame.order = &order_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    frame.x_axis[k] = T_world_sensor.linear()(axis, 0);
+    frame.y_axis[k] = T_world_sensor.linear()(axis, 1);
+    frame.up[k] = T_world_sensor.linear()(axis, 2);
+    frame.planes[k] = walls_.data(k);
+  }
+  frame.level_axes = level_axes(frame.up);
+  frame.minimum_range = static_cast<float>(limits_.minimum_range);
+  frame.maximum_range = static_cast<float>(limits_.maximum_range);
+  frame.number = ++images_;
+  frame.slack = static_cast<float>(1e-4 + 2e-6 * limits_.maximum_range);
+  return frame;
+}
+
+/// Each thread lists the bricks of one part of the circle; the parts are then swept in smaller
+/// pieces, some of which take longer than others.
+void FirstHitCaster::sweep_image(const Frame& frame, int threads, float* range) {
+  constexpr std::size_t kPiece = kGroup;
+  const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
+  const auto parts = static_cast<std::size_t>(std::max(threads, 1));
+  const std::size_t width = (columns / parts / kPiece + 1) * kPiece;
+  lists_.resize((columns + width - 1) / width);
+  parallel_chunks(threads, columns, width, [&](std::size_t begin, std::size_t end) {
+    list_columns(frame, static_cast<int>(begin), static_cast<int>(end), lists_[begin / width]);
+  });
+  const std::size_t piece = threads <= 1 ? width : kPiece;
+  parallel_chunks(threads, columns, piece, [&](std::size_t begin, std::size_t end) {
+    scratch_.with_one([&](sweep::Scratch& scratch) {
+      sweep::sweep_columns(frame, lists_[begin / width], static_cast<int>(begin),
+                           static_cast<int>(end), scratch, range);
+    });
+  });
 }
 
 FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
@@ -313,13 +244,6 @@ FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
   FirstHitImage image;
   FirstHitCaster(grid, limits).cast(map, T_world_sensor, threads, image);
   return image;
-}
-
-Ray FirstHitImage::ray(int bin) const {
-  return {
-      T_world_sensor.translation(),
-      T_world_sensor.linear() * directions->at(static_cast<std::size_t>(grid.azimuth_of(bin)),
-                                               static_cast<std::size_t>(grid.elevation_of(bin)))};
 }
 
 std::optional<VoxelIndex> FirstHitImage::voxel(const OccupancyMap& map, int bin) const {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include "methods/common/workspaces.h"
 #include "methods/raymoval/kernels/angular_grid.h"
-#include "methods/raymoval/kernels/occupancy_map.h"
-#include "methods/raymoval/kernels/wanted_bins.h"
+#include "methods/raymoval/kernels/first_hit_sweep.h"
 
 namespace raymoval::raymoval_method {
 
@@ -41,11 +40,12 @@ struct FirstHitImage {
   AngularGrid grid;
   Pose T_world_sensor = Pose::Identity();
   RayLimits limits;
-  std::shared_ptr<const DirectionTable> directions;  ///< The directions of the grid's bins.
   std::vector<float> range;  ///< r_cast of each bin, metres; it is infinite where nothing is hit.
 
   /// Eqs 5-6: the ray of a bin.
-  [[nodiscard]] Ray ray(int bin) const;
+  [[nodiscard]] Ray ray(int bin) const {
+    return {T_world_sensor.translation(), T_world_sensor.linear() * grid.direction(bin)};
+  }
   /// The voxel that a bin's ray hits, found exactly on the map that the image was cast on.
   /// There is none if the range is infinite, or if the map has changed there.
   [[nodiscard]] std::optional<VoxelIndex> voxel(const OccupancyMap& map, int bin) const;
@@ -59,20 +59,30 @@ struct FirstHitImage {
 class FirstHitCaster {
  public:
   FirstHitCaster(const AngularGrid& grid, const RayLimits& limits);
-  ~FirstHitCaster();
-  FirstHitCaster(FirstHitCaster&&) noexcept;
-  FirstHitCaster& operator=(FirstHitCaster&&) noexcept;
 
   /// Casts the image from `T_world_sensor`. The boxes of changed bricks are brought up to date.
   /// @param image replaced; its memory is used again
-  void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image);
+  void cast(OccupancyMap& map, const Pose& T_world_sensor, int threads, FirstHitImage& image) {
+    cast(map, T_world_sensor, all_, threads, image);
+  }
   /// The same for some bins only. The ranges of the other bins mean nothing.
   void cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted, int threads,
             FirstHitImage& image);
 
  private:
-  class State;
-  std::unique_ptr<State> state_;
+  sweep::Frame start_frame(const OccupancyMap& map, const Pose& T_world_sensor);
+  void sweep_image(const sweep::Frame& frame, int threads, float* range);
+
+  AngularGrid grid_;
+  RayLimits limits_;
+  WantedBins all_;
+  sweep::GridTables tables_;
+  sweep::WallTables walls_;
+  sweep::BrickList bricks_;
+  std::vector<std::uint32_t> starts_, order_;
+  std::vector<sweep::ColumnLists> lists_;
+  Workspaces<sweep::Scratch> scratch_{[] { return std::make_unique<sweep::Scratch>(); }};
+  std::uint64_t images_ = 0;
 };
 
 /// Casts one image with a caster of its own.

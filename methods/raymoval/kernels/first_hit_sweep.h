@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,39 @@ struct GridTables {
   std::vector<double> elevation_cosine, elevation_sine;  ///< At the rows' centres.
   /// Tangents a little below and above each row's centre; infinite beyond the vertical.
   std::vector<float> tangent_below, tangent_above;
+};
+
+/// Voxel walls around a sensor: `wall(k, c)` of lattice plane c along axis k.
+class WallTables {
+ public:
+  void build(const OccupancyMap& map, const Eigen::Vector3d& position, double range) {
+    constexpr int kMargin = 2 * OccupancyMap::kBrickSide;
+    const VoxelIndex cell = map.voxel_of(position);
+    const int reach = static_cast<int>(std::ceil(range * map.inverse_voxel_size())) + 1;
+    for (int k = 0; k < 3; ++k) {
+      low_[k] = cell[k] - reach;
+      high_[k] = cell[k] + reach;
+      first_[k] = low_[k] - kMargin;
+      auto& walls = walls_[static_cast<std::size_t>(k)];
+      walls.resize(static_cast<std::size_t>(2 * (reach + kMargin) + 1));
+      for (std::size_t i = 0; i < walls.size(); ++i) {
+        const int plane = first_[k] + static_cast<int>(i);
+        walls[i] = static_cast<float>(plane * map.voxel_size() - position[k]);
+      }
+    }
+  }
+  [[nodiscard]] const float* data(std::size_t axis) const { return walls_[axis].data(); }
+  /// First and last voxel within the range.
+  [[nodiscard]] const Eigen::Vector3i& low() const { return low_; }
+  [[nodiscard]] const Eigen::Vector3i& high() const { return high_; }
+  /// Where the walls of a brick begin; it has a voxel within low .. high.
+  [[nodiscard]] std::int32_t brick_offset(Eigen::Index axis, std::int32_t brick) const {
+    return brick * OccupancyMap::kBrickSide - first_[axis];
+  }
+
+ private:
+  std::array<std::vector<float>, 3> walls_;
+  Eigen::Vector3i low_, high_, first_;
 };
 
 /// Bricks within reach of the sensor, one array a property, padded to a multiple of kGroup.

@@ -246,17 +246,8 @@ TEST_CASE("beautymap: the fast way gives what the description says") {
       INFO("seed " << seed << ", variant " << variant);
       const Oracle oracle(parameters, street);
       const MaskStore masks = toy::masks_of(*make_beautymap(parameters), street, 2);
-      std::size_t differences = 0, removed = 0;
-      for (std::size_t i = 0; i < street.size(); ++i) {
-        const Mask expected = oracle.mask(i), found = masks.get(i);
-        REQUIRE(expected.size() == found.size());
-        for (std::size_t k = 0; k < found.size(); ++k) {
-          differences += expected[k] != found[k] ? 1 : 0;
-          removed += found[k];
-        }
-      }
-      CHECK(differences == 0);
-      CHECK(removed > 0);
+      for (std::size_t i = 0; i < street.size(); ++i) CHECK(masks.get(i) == oracle.mask(i));
+      CHECK(masks.removed_count() > 0);
     }
   }
 }

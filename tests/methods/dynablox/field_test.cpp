@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "core/angle.h"
 #include "methods/dynablox/field.h"
+#include "tests/methods/toy_world.h"
 
 namespace raymoval::dynablox_test {
 using namespace raymoval::dynablox_method;
@@ -49,11 +49,9 @@ Scan wall(const std::function<double(double)>& range_at) {
   for (int azimuth = -60; azimuth < 60; ++azimuth) {
     for (int elevation = -16; elevation <= 16; ++elevation) {
       const double degrees = (azimuth + 0.5) * 0.2, range = range_at(degrees);
-      const double a = degrees * kDegree, e = elevation * kDegree;
       if (range == 0.0) continue;
-      scan.points.emplace_back(static_cast<float>(range * std::cos(a) * std::cos(e)),
-                               static_cast<float>(range * std::sin(a) * std::cos(e)),
-                               static_cast<float>(range * std::sin(e)));
+      const Eigen::Vector3d u = toy::direction(degrees * kDegree, elevation * kDegree);
+      scan.points.emplace_back((range * u).cast<float>());
     }
   }
   return scan;

@@ -175,8 +175,7 @@ TEST_CASE("off the lattice few verdicts change", "[erasor]") {
   ConfiguredMethod method = MethodRegistry::built_in().configure("erasor");
   set_parameter(method.configuration, "removal_interval", std::int64_t{2});
   const auto removed = masks_of(*method.make(), world).removed_count();
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
+  const std::size_t points = toy::point_count(world);
   Pose turned = whole_motion(0.037, 0.081, 0, 0);
   turned.linear() = Eigen::AngleAxisd(17 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const Pose& motion :

@@ -27,12 +27,10 @@ TEST_CASE("a car that is gone is removed", "[erasor]") {
   // Map 1.5 m high, query 0.05 m: ratio 0.033.
   CHECK(removed_by(empty_road(), road_and(kCar), small_grid()) == Numbers{4, 5, 6});
   // The order of the scans does not matter to the map: a car that comes later is removed too.
-  HeldScans scans;
-  scans.add(empty_road());
-  scans.add(road_and(kCar));
   Parameters first_asks = small_grid();
   first_asks.phase = 0;
-  CHECK(removed_points(scans, first_asks)[1] == Numbers{4, 5, 6});
+  CHECK(removed_points(scans_of({empty_road(), road_and(kCar)}), first_asks)[1] ==
+        Numbers{4, 5, 6});
 }
 
 TEST_CASE("where a wheel touches the road it stays", "[erasor]") {
@@ -125,12 +123,9 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
 TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
   // The first query clears the bin of car A and of B, which the map of all scans holds already;
   // then B itself drives by: the query is higher, and the map keeps what it has.
-  HeldScans scans;
-  scans.add(road_and(kCar));
-  scans.add(empty_road());
   Points with_b = road();
   for (const float z : {0.7F, 1.3F}) with_b.emplace_back(2.7F, 0.7F, z);
-  scans.add(with_b);
+  const HeldScans scans = scans_of({road_and(kCar), empty_road(), with_b});
   Parameters parameters = small_grid();
   parameters.removal_interval = 1;
   parameters.phase = 1;
@@ -147,10 +142,7 @@ TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
   Points with_car = uneven, with_low = uneven;
   for (const float z : kCar) with_car.emplace_back(3.0F, 0.75F, z);
   with_low.emplace_back(2.7F, 0.7F, 0.3F);
-  HeldScans scans;
-  scans.add(with_car);
-  scans.add(uneven);
-  scans.add(with_low);
+  const HeldScans scans = scans_of({with_car, uneven, with_low});
   Parameters parameters = small_grid();
   parameters.removal_interval = 1;
   parameters.phase = 1;

@@ -25,6 +25,11 @@ BinExtent bin(double height, int points = 10) {
   return extent;
 }
 
+/// '-' if voxels go out, '+' if those of the query come in.
+std::string done(const BinAction& action) {
+  return std::string(action.remove ? "-" : "") + (action.reinsert ? "+" : "");
+}
+
 }  // namespace
 
 TEST_CASE("a point falls into its ring and sector", "[erasor]") {
@@ -112,39 +117,35 @@ TEST_CASE("a query with few points says nothing, a map without any is told apart
 }
 
 TEST_CASE("version 3 changes only bins where the map is higher and tall", "[erasor]") {
-  const Parameters parameters = small_grid();
+  const auto does = [](BinFinding finding, double height) {
+    return done(action_for(finding, bin(height), small_grid()));
+  };
   for (const BinFinding finding : {BinFinding::kTooFewPoints, BinFinding::kQueryOnly,
                                    BinFinding::kCurrentHigher, BinFinding::kEqual}) {
-    const BinAction action = action_for(finding, bin(1.5), parameters);
-    CHECK_FALSE(action.remove);
-    CHECK_FALSE(action.reinsert);
+    CHECK(does(finding, 1.5) == "");
   }
-  const BinAction tall = action_for(BinFinding::kMapHigher, bin(0.51), parameters);
-  CHECK(tall.remove);
-  CHECK(tall.reinsert);
-  const BinAction low = action_for(BinFinding::kMapHigher, bin(0.5), parameters);
-  CHECK_FALSE(low.remove);
-  CHECK_FALSE(low.reinsert);
+  CHECK(does(BinFinding::kMapHigher, 0.51) == "-+");
+  CHECK(does(BinFinding::kMapHigher, 0.5) == "");
 }
 
 TEST_CASE("version 2 asks for a high top instead and takes in what the query sees", "[erasor]") {
   Parameters parameters = small_grid();
   parameters.version = 2;
   parameters.minimum_top = 0.2;
-  CHECK(action_for(BinFinding::kMapHigher, bin(0.45), parameters).remove);
-  CHECK(action_for(BinFinding::kMapHigher, bin(0.45), parameters).reinsert);
-  CHECK_FALSE(action_for(BinFinding::kMapHigher, bin(0.2), parameters).remove);
-  CHECK_FALSE(action_for(BinFinding::kMapHigher, bin(0.2), parameters).reinsert);
-  CHECK(action_for(BinFinding::kEqual, bin(1), parameters).reinsert);
-  CHECK(action_for(BinFinding::kQueryOnly, bin(0, 0), parameters).reinsert);
-  CHECK_FALSE(action_for(BinFinding::kEqual, bin(1), parameters).remove);
-  CHECK_FALSE(action_for(BinFinding::kCurrentHigher, bin(1), parameters).reinsert);
-  CHECK_FALSE(action_for(BinFinding::kTooFewPoints, bin(1), parameters).reinsert);
+  const auto does = [&](BinFinding finding, const BinExtent& map) {
+    return done(action_for(finding, map, parameters));
+  };
+  CHECK(does(BinFinding::kMapHigher, bin(0.45)) == "-+");
+  CHECK(does(BinFinding::kMapHigher, bin(0.2)) == "");
+  CHECK(does(BinFinding::kEqual, bin(1)) == "+");
+  CHECK(does(BinFinding::kQueryOnly, bin(0, 0)) == "+");
+  CHECK(does(BinFinding::kCurrentHigher, bin(1)) == "");
+  CHECK(does(BinFinding::kTooFewPoints, bin(1)) == "");
   // The top is a height above the road, not above the bin's own ground: 0.9 m of pit wall stays.
   BinExtent pit;
   pit.add(-0.8);
   pit.add(0.1);
-  CHECK_FALSE(action_for(BinFinding::kMapHigher, pit, parameters).remove);
+  CHECK(does(BinFinding::kMapHigher, pit) == "");
 }
 
 }  // namespace raymoval::erasor_test

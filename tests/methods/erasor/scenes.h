@@ -45,6 +45,13 @@ inline Points road_and(const std::vector<float>& heights) {
   return points;
 }
 
+/// Scans from the world's origin.
+inline HeldScans scans_of(const std::vector<Points>& all) {
+  HeldScans scans;
+  for (const Points& points : all) scans.add(points);
+  return scans;
+}
+
 /// Masks of the scans by the numbers of the points that are removed.
 inline std::vector<std::vector<int>> removed_points(const ScanSource& scans,
                                                     const Parameters& parameters) {
@@ -62,10 +69,7 @@ inline std::vector<std::vector<int>> removed_points(const ScanSource& scans,
 /// Points of `first` that are removed once `query` has been compared with the map of both.
 inline std::vector<int> removed_by(const Points& query, const Points& first,
                                    const Parameters& parameters) {
-  HeldScans scans;
-  scans.add(first);
-  scans.add(query);
-  return removed_points(scans, parameters).front();
+  return removed_points(scans_of({first, query}), parameters).front();
 }
 
 }  // namespace raymoval::erasor_test

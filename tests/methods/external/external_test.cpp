@@ -19,31 +19,20 @@ using test::message_of;
 namespace {
 
 /// Three scans of 2, 1 and 0 points, the sensor one metre further each time.
-class TinySource : public ScanSource {
- public:
-  [[nodiscard]] std::size_t size() const override { return 3; }
-  [[nodiscard]] Scan load(std::size_t i) const override {
+toy::HeldScans tiny_scans() {
+  toy::HeldScans scans;
+  for (int i = 0; i < 3; ++i) {
     Scan scan;
-    scan.index = i;
     scan.name = "secret";
-    scan.time_s = 0.1 * static_cast<double>(i);
-    scan.T_world_sensor = pose(i);
+    scan.time_s = 0.1 * i;
+    scan.T_world_sensor = Eigen::Translation3d(i, 0.0, 0.0);
     if (i == 0) scan.points = {{1, 2, 3}, {4, 5, 6}};
     if (i == 1) scan.points = {{7, 8, 9}};
     if (i == 0) scan.reflectance = {0.5F, 0.25F};
-    scan.stored_point_count = scan.size();
-    return scan;
+    scans.add_scan(std::move(scan));
   }
-  [[nodiscard]] Pose pose(std::size_t i) const override {
-    Pose pose = Pose::Identity();
-    pose.translation().x() = static_cast<double>(i);
-    return pose;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
-
- private:
-  SensorModel model_;
-};
+  return scans;
+}
 
 constexpr const char* kRight =
     "cd predictions; printf '\\373\\0\\0\\0\\011\\0\\0\\0' > 000000.label; "
@@ -52,7 +41,7 @@ constexpr const char* kRight =
 /// A program, its manifest, and a folder for temporary files of its own.
 struct Fixture {
   test::TemporaryFolder here, temporary;
-  TinySource scans;
+  toy::HeldScans scans = tiny_scans();
 
   Fixture() { ::setenv("TMPDIR", temporary.text().c_str(), 1); }
   ~Fixture() { ::unsetenv("TMPDIR"); }

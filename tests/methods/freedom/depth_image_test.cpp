@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/angle.h"
+#include "tests/methods/toy_world.h"
 
 namespace raymoval::freedom_test {
 using namespace raymoval::freedom_method;
@@ -47,10 +47,7 @@ SensorModel four_rows() {
 }
 
 Eigen::Vector3f point_at(double azimuth, double elevation, double range) {
-  const double a = azimuth * kDegree, e = elevation * kDegree;
-  return (range *
-          Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)))
-      .cast<float>();
+  return (range * toy::direction(azimuth * kDegree, elevation * kDegree)).cast<float>();
 }
 
 }  // namespace

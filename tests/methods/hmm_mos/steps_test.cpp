@@ -232,14 +232,10 @@ TEST_CASE("changes less what is unknown, for each occupied voxel once", "[hmm_mo
       const VoxelIndex voxel(i / kSize / kSize - 5, i / kSize % kSize - 5, i % kSize - 5);
       if ((second.column(voxel).hit & bit_of(voxel)) == 0) continue;
       int expected = 0;
-      for (int x = -reach; x <= reach; ++x) {
-        for (int y = -reach; y <= reach; ++y) {
-          for (int z = -reach; z <= reach; ++z) {
-            const std::array<int, 3> other{voxel.x() + x, voxel.y() + y, voxel.z() + z};
-            expected += appeared.contains(other) ? 1 : known.contains(other) ? 0 : -1;
-          }
-        }
-      }
+      for_each_around(voxel, reach, [&](const VoxelIndex& at) {
+        const std::array<int, 3> other{at.x(), at.y(), at.z()};
+        expected += appeared.contains(other) ? 1 : known.contains(other) ? 0 : -1;
+      });
       const auto found = scores.find(voxel_key(voxel));
       wrong += (found == scores.end() ? 0 : found->second) != std::max(expected, 0) ? 1 : 0;
       ++(expected > 0 ? positive : others);

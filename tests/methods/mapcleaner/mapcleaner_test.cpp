@@ -214,14 +214,6 @@ TEST_CASE("mapcleaner: values that would silently leave no terrain are refused")
   CHECK(removed_of_last(passing(box), box.size(), parameters) == static_cast<int>(box.size()));
 }
 
-TEST_CASE("mapcleaner: a parameter out of its range is refused") {
-  const MethodEntry entry = mapcleaner_entry();
-  const ParameterSpec& spec = find_parameter("mapcleaner", entry.parameters, "voxel_size");
-  CHECK_THROWS_WITH(checked_value_from_text("mapcleaner", spec, "0"),
-                    Catch::Contains("voxel_size") && Catch::Contains("0.05"));
-  CHECK_THROWS_AS(find_parameter("mapcleaner", entry.parameters, "voxel"), ConfigurationError);
-}
-
 TEST_CASE("mapcleaner: the fast way gives what the description says") {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   SensorModel sensor;
@@ -248,19 +240,9 @@ TEST_CASE("mapcleaner: the fast way gives what the description says") {
     const toy::HeldScans scans = random_scans(20 + static_cast<unsigned>(variant), sensor);
     const Oracle oracle(parameters, scans);
     const MaskStore masks = toy::masks_of(*make_mapcleaner(parameters), scans, 1 + variant % 3);
-    std::size_t differences = 0, removed = 0, points = 0;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      const Mask expected = oracle.mask(i), found = masks.get(i);
-      REQUIRE(expected.size() == found.size());
-      points += found.size();
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        differences += expected[k] != found[k] ? 1 : 0;
-        removed += found[k];
-      }
-    }
-    CHECK(differences == 0);
-    CHECK(removed > 100);
-    CHECK(removed < points / 2);
+    for (std::size_t i = 0; i < scans.size(); ++i) CHECK(masks.get(i) == oracle.mask(i));
+    CHECK(masks.removed_count() > 100);
+    CHECK(masks.removed_count() < masks.point_count() / 2);
   }
 }
 

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "core/angle.h"
 #include "tests/methods/mapcleaner/scenes.h"
+#include "tests/methods/toy_world.h"
 
 namespace raymoval::mapcleaner_test {
 using namespace raymoval::mapcleaner_method;
@@ -14,10 +14,7 @@ namespace {
 
 /// A point at a direction in degrees and a range in metres.
 Eigen::Vector3f at(double azimuth, double elevation, double range) {
-  const double a = azimuth * kDegree, e = elevation * kDegree;
-  return (range *
-          Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)))
-      .cast<float>();
+  return (range * toy::direction(azimuth * kDegree, elevation * kDegree)).cast<float>();
 }
 
 int pixel_of(const ImageFrame& frame, const Eigen::Vector3f& point) {

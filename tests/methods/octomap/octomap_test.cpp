@@ -231,8 +231,7 @@ TEST_CASE("the lattice's place changes a bounded share of the verdicts", "[slow]
   // under the world. Measured: sideways 0.4 and 0.6 % of the points change; upwards by half a cell
   // 18 %, for what part of the road goes depends on how high it lies in its layer of cells.
   const World world = street(8);
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
+  const std::size_t points = toy::point_count(world);
   const auto share = [&](double x, double y, double z) {
     const Pose motion = whole_motion(x, y, z, 0);
     return static_cast<double>(verdicts_changed_by(motion, variant("r20"), world)) /

@@ -25,9 +25,8 @@ class ListedScans : public HeldScans {
   ListedScans& row(const std::vector<double>& xs) {
     std::vector<Eigen::Vector3d> world;
     for (const double x : xs) world.emplace_back(x, 0.5, 0.5);
-    return scan(at(0.5, 0.5, 0.5), world);
+    return scan(pose_at(0.5, 0.5, 0.5), world);
   }
-  static Pose at(double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); }
 };
 
 /// A configured Peopleremover with some values changed.

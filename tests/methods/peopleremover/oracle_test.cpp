@@ -2,14 +2,14 @@
 // The whole method against one by the letter of its description, with a set of scan numbers in each
 // voxel, and what must not change an answer.
 #include <catch2/catch.hpp>
-#include <limits>
 #include <map>
 #include <set>
 
-#include "core/scan/voxel_key.h"
+#include "methods/common/sparse_blocks.h"
 #include "methods/peopleremover/beams.h"
 #include "tests/methods/moved_world.h"
 #include "tests/methods/peopleremover/listed_scans.h"
+#include "tests/methods/peopleremover/slow_path.h"
 
 namespace raymoval::peopleremover_test {
 using namespace raymoval::peopleremover_method;
@@ -21,8 +21,8 @@ using Scans = std::set<int>;
 /// Steps 2.1 to 2.10, slowly. Beam ends are those of the fast code, which has an oracle of its own.
 class SlowPeopleremover {
  public:
-  SlowPeopleremover(const ConfiguredMethod& method, const ScanSource& scans)
-      : p_(parameter_table().read(method.configuration)), scans_(scans) {
+  SlowPeopleremover(const Parameters& parameters, const ScanSource& scans)
+      : p_(parameters), scans_(scans) {
     for (std::size_t i = 0; i < scans.size(); ++i) insert(static_cast<int>(i));
     for (std::size_t i = 0; i < scans.size(); ++i) trace(static_cast<int>(i));
     discard_clusters();
@@ -64,12 +64,11 @@ class SlowPeopleremover {
     for (const auto& point : scan.points) {
       if (takes_part(point.cast<double>())) points.push_back(point.cast<double>());
     }
-    const std::vector<double> lengths = peopleremover_method::BeamEnds(p_).find(points);
+    const std::vector<double> lengths = BeamEnds(p_).find(points);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Eigen::Vector3d end =
-          lengths[k] == peopleremover_method::kWholeBeam
-              ? points[k]
-              : Eigen::Vector3d(points[k] * (lengths[k] / points[k].norm()));
+          lengths[k] == kWholeBeam ? points[k]
+                                   : Eigen::Vector3d(points[k] * (lengths[k] / points[k].norm()));
       follow(i, scan.T_world_sensor.translation() * (1.0 / p_.voxel_size),
              (scan.T_world_sensor * end) * (1.0 / p_.voxel_size));
     }
@@ -85,33 +84,9 @@ class SlowPeopleremover {
   }
   void follow(int i, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     if (from == to) return;
-    const Eigen::Vector3i last = to.array().floor().cast<int>();
-    Eigen::Vector3i at = from.array().floor().cast<int>();
-    visit(i, voxel_key(at));
-    while (at != last) {
-      double soonest = std::numeric_limits<double>::infinity();
-      int axis = -1;
-      for (int a = 0; a < 3; ++a) {
-        if (at[a] == last[a]) continue;
-        const int wall = to[a] > from[a] ? at[a] + 1 : at[a];
-        const double time = (wall - from[a]) * (1.0 / (to[a] - from[a]));
-        if (time < soonest) {
-          soonest = time;
-          axis = a;
-        }
-      }
-      at[axis] += to[axis] > from[axis] ? 1 : -1;
-      if (!visit(i, voxel_key(at))) return;
-    }
-  }
-  template <class Visit>
-  static void for_cube(VoxelKey x, int radius, Visit&& visit) {
-    for (int dz = -radius; dz <= radius; ++dz) {
-      for (int dy = -radius; dy <= radius; ++dy) {
-        for (int dx = -radius; dx <= radius; ++dx) {
-          visit(voxel_key(voxel_index(x) + VoxelIndex(dx, dy, dz)));
-        }
-      }
+    const std::vector<VoxelKey> path = slow_path(from, to);
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      if (!visit(i, path[k]) && k > 0) return;
     }
   }
   void discard_clusters() {
@@ -120,8 +95,8 @@ class SlowPeopleremover {
       std::vector<VoxelKey> cluster{*left.begin()};
       left.erase(left.begin());
       for (std::size_t k = 0; k < cluster.size(); ++k) {
-        for_cube(cluster[k], 1, [&](VoxelKey x) {
-          if (left.erase(x) > 0) cluster.push_back(x);
+        for_each_around(voxel_index(cluster[k]), 1, [&](const VoxelIndex& x) {
+          if (left.erase(voxel_key(x)) > 0) cluster.push_back(voxel_key(x));
         });
       }
       if (static_cast<int>(cluster.size()) >= p_.min_cluster_size) continue;
@@ -131,7 +106,8 @@ class SlowPeopleremover {
   void spread() {
     if (!p_.subvoxel_accuracy) return;
     for (const VoxelKey y : freed_) {
-      for_cube(y, p_.half_voxel_radius, [&](VoxelKey x) {
+      for_each_around(voxel_index(y), p_.half_voxel_radius, [&](const VoxelIndex& at) {
+        const VoxelKey x = voxel_key(at);
         if (!occupied_.contains(x) || freed_.contains(x)) return;
         half_[x].insert(occupied_[y].begin(), occupied_[y].end());
       });
@@ -162,25 +138,20 @@ ListedScans thinned(const ScanSource& source, std::size_t step) {
 
 TEST_CASE("peopleremover answers as one with a set of scans in each voxel", "[peopleremover]") {
   const ListedScans scans = thinned(street(9), 7);
-  const auto text = [](const char* word) { return std::string(word); };
-  const std::vector<Configuration> settings{
-      {{"maxrange_method", text("normals")}},
-      {{"maxrange_method", text("none")}},
-      {{"maxrange_method", text("none")}, {"diff", std::int64_t{1}}},
-      {{"maxrange_method", text("normals")}, {"diff", std::int64_t{3}}},
-      {{"maxrange_method", text("normals")}, {"subvoxel_accuracy", false}},
-      {{"maxrange_method", text("none")}, {"min_cluster_size", std::int64_t{60}}},
-      {{"maxrange_method", text("normals")},
-       {"voxel_size", 0.1},
-       {"min_cluster_size", std::int64_t{0}}},
-      {{"maxrange_method", text("normals")},
-       {"voxel_size", 0.4},
-       {"half_voxel_radius", std::int64_t{5}}},
+  constexpr auto kNormals = MaxrangeMethod::kNormals, kNone = MaxrangeMethod::kNone;
+  const std::vector<Parameters> settings{
+      {.maxrange_method = kNormals},
+      {.maxrange_method = kNone},
+      {.maxrange_method = kNone, .diff = 1},
+      {.maxrange_method = kNormals, .diff = 3},
+      {.maxrange_method = kNormals, .subvoxel_accuracy = false},
+      {.maxrange_method = kNone, .min_cluster_size = 60},
+      {.voxel_size = 0.1, .maxrange_method = kNormals, .min_cluster_size = 0},
+      {.voxel_size = 0.4, .maxrange_method = kNormals, .half_voxel_radius = 5},
   };
   for (std::size_t s = 0; s < settings.size(); ++s) {
-    const ConfiguredMethod method = peopleremover("normals", settings[s]);
-    const MaskStore masks = masks_of(*method.make(), scans);
-    const SlowPeopleremover slow(method, scans);
+    const MaskStore masks = masks_of(*make_peopleremover(settings[s]), scans);
+    const SlowPeopleremover slow(settings[s], scans);
     INFO("setting " << s);
     CHECK(masks.removed_count() > 20);
     for (std::size_t i = 0; i < scans.size(); ++i) REQUIRE(masks.get(i) == slow.mask(i));
@@ -206,9 +177,8 @@ TEST_CASE("peopleremover hardly depends on where the lattice lies", "[peopleremo
   // Whole beams are another matter: how much of the road they take depends on its height in its
   // voxels, 26 to 38 % of the verdicts change, and no useful bound can be given.
   const World world = street(8);
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
-  Pose motion = ListedScans::at(0.1, 0.07, 0.05);
+  const std::size_t points = toy::point_count(world);
+  Pose motion = pose_at(0.1, 0.07, 0.05);
   for (const double turn : {0.0, 0.3}) {
     motion.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).matrix();
     for (const auto& [variant, share] : {std::pair("normals", 0.015), std::pair("fine", 0.03)}) {

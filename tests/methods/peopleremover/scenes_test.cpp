@@ -130,12 +130,12 @@ TEST_CASE("peopleremover: the sensor's own voxel stops nothing and can be freed"
   // Scan 0 stands 3 m back and has a point in the voxel of scan 1's sensor, (0, 0, 0). Scan 1's
   // own point nearer than the minimum range counts for nothing.
   ListedScans scans;
-  scans.scan(ListedScans::at(0.5, 0.5, -2.5), {{0.5, 0.5, 0.5}});
-  scans.scan(ListedScans::at(0.4, 0.5, 0.5), {{0.9, 0.5, 0.5}, {5.5, 0.5, 0.5}});
+  scans.scan(pose_at(0.5, 0.5, -2.5), {{0.5, 0.5, 0.5}});
+  scans.scan(pose_at(0.4, 0.5, 0.5), {{0.9, 0.5, 0.5}, {5.5, 0.5, 0.5}});
   CHECK(verdicts(scans) == Verdicts{{1}, {0, 0}});
   // As an own point of the sensor's voxel (minimum range 0.1 m) it protects that voxel, but lets
   // the beam through to voxel 3, where scan 2 has a point, seen from below.
-  scans.scan(ListedScans::at(3.5, 0.5, -2.5), {{3.5, 0.5, 0.5}});
+  scans.scan(pose_at(3.5, 0.5, -2.5), {{3.5, 0.5, 0.5}});
   CHECK(verdicts(scans, set("minimum_range", 0.1)) == Verdicts{{0}, {0, 0}, {1}});
 }
 
@@ -150,9 +150,9 @@ TEST_CASE("peopleremover: cells go down to minus infinity, not towards zero", "[
   // Mirrored at x = 0: sensor at -0.5, points at -3.5 and -8.5; and a point at 0.5 behind, which
   // would share a truncated voxel with -0.5.
   ListedScans scans;
-  const Pose pose = ListedScans::at(-0.5, -0.5, -0.5);
+  const Pose pose = pose_at(-0.5, -0.5, -0.5);
   scans.scan(pose, {{-3.5, -0.5, -0.5}}).scan(pose, {{-8.5, -0.5, -0.5}});
-  scans.scan(ListedScans::at(4.5, -0.5, -0.5), {{0.5, -0.5, -0.5}});
+  scans.scan(pose_at(4.5, -0.5, -0.5), {{0.5, -0.5, -0.5}});
   CHECK(verdicts(scans) == Verdicts{{1}, {0}, {0}});
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("peopleremover: point shadows keep what stands right before a wall", "
   const std::vector<Eigen::Vector3d> wall = points_of_wall();
   for (const double x : {7.5, 5.5}) {
     ListedScans scans;
-    scans.row({x}).scan(ListedScans::at(0.5, 0.5, 0.5), wall);
+    scans.row({x}).scan(pose_at(0.5, 0.5, 0.5), wall);
     INFO("phantom at " << x);
     CHECK(verdicts(scans)[0] == Mask{1});
     CHECK(verdicts(scans, set("maxrange_method", std::string("normals")))[0] ==
@@ -176,7 +176,7 @@ TEST_CASE("peopleremover: the voxel in which a shortened beam ends can be freed"
           "[peopleremover]") {
   // As above, the beam ends at x = 6.77: voxel 6 is its last.
   ListedScans scans;
-  scans.row({6.5}).scan(ListedScans::at(0.5, 0.5, 0.5), points_of_wall());
+  scans.row({6.5}).scan(pose_at(0.5, 0.5, 0.5), points_of_wall());
   CHECK(verdicts(scans, set("maxrange_method", std::string("normals")))[0] == Mask{1});
 }
 

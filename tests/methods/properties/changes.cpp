@@ -33,7 +33,7 @@ std::vector<Place> unmoved(std::size_t scan, std::size_t points) {
 /// Adds a scan of the world before, as it is.
 void keep(const Scan& scan, ChangedWorld& changed) {
   changed.now.push_back(unmoved(changed.scans.size(), scan.size()));
-  changed.scans.add(scan);
+  changed.scans.add_scan(scan);
 }
 
 Scan without_points(Scan scan) {
@@ -41,28 +41,28 @@ Scan without_points(Scan scan) {
   return scan;
 }
 
-ChangedWorld add_empty_last(const ScanList& world, std::mt19937&) {
+ChangedWorld add_empty_last(const HeldScans& world, std::mt19937&) {
   ChangedWorld changed{world, {}};
   for (const Scan& scan : world.scans()) changed.now.push_back(unmoved(scan.index, scan.size()));
-  changed.scans.add(without_points(world.scans().back()));
+  changed.scans.add_scan(without_points(world.scans().back()));
   return changed;
 }
 
-ChangedWorld add_empty_between(const ScanList& world, std::mt19937& random) {
+ChangedWorld add_empty_between(const HeldScans& world, std::mt19937& random) {
   const std::size_t before = index_below(world.size(), random);
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (const Scan& scan : world.scans()) {
-    if (scan.index == before) changed.scans.add(without_points(scan));
+    if (scan.index == before) changed.scans.add_scan(without_points(scan));
     keep(scan, changed);
   }
   return changed;
 }
 
 /// The left and the right half, or every second point.
-ChangedWorld split(const ScanList& world, std::mt19937& random) {
+ChangedWorld split(const HeldScans& world, std::mt19937& random) {
   const std::size_t chosen = index_below(world.size(), random);
   const bool by_side = random() % 2 == 0;
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (const Scan& scan : world.scans()) {
     if (scan.index != chosen) {
       keep(scan, changed);
@@ -76,13 +76,13 @@ ChangedWorld split(const ScanList& world, std::mt19937& random) {
       halves[half].points.push_back(scan.points[k]);
     }
     changed.now.push_back(std::move(places));
-    for (Scan& half : halves) changed.scans.add(std::move(half));
+    for (Scan& half : halves) changed.scans.add_scan(std::move(half));
   }
   return changed;
 }
 
-ChangedWorld shuffle_points(const ScanList& world, std::mt19937& random) {
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+ChangedWorld shuffle_points(const HeldScans& world, std::mt19937& random) {
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (const Scan& scan : world.scans()) {
     const std::vector<std::size_t> place = shuffled(scan.size(), random);
     Scan other = scan;
@@ -92,14 +92,14 @@ ChangedWorld shuffle_points(const ScanList& world, std::mt19937& random) {
       places.push_back({scan.index, place[k]});
     }
     changed.now.push_back(std::move(places));
-    changed.scans.add(std::move(other));
+    changed.scans.add_scan(std::move(other));
   }
   return changed;
 }
 
 /// A fifth of the points of each scan once more, at its end.
-ChangedWorld double_points(const ScanList& world, std::mt19937& random) {
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+ChangedWorld double_points(const HeldScans& world, std::mt19937& random) {
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (const Scan& scan : world.scans()) {
     Scan more = scan;
     for (std::size_t i = 0; i < scan.size() / 5; ++i) {
@@ -108,17 +108,17 @@ ChangedWorld double_points(const ScanList& world, std::mt19937& random) {
       more.points.push_back(scan.points[k]);
     }
     changed.now.push_back(unmoved(scan.index, scan.size()));
-    changed.scans.add(std::move(more));
+    changed.scans.add_scan(std::move(more));
   }
   return changed;
 }
 
 /// By whole numbers of 0.05, 0.1, 0.2, 0.4 and 0.8 m, and by quarter turns.
-ChangedWorld move(const ScanList& world, std::mt19937& random) {
+ChangedWorld move(const HeldScans& world, std::mt19937& random) {
   const auto steps = [&random] { return 12.8 * (static_cast<double>(random() % 101) - 50.0); };
   const double x = steps(), y = steps(), z = steps();
   const Pose motion = whole_motion(x, y, z, static_cast<int>(random() % 4));
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (Scan scan : world.scans()) {
     scan.T_world_sensor = motion * scan.T_world_sensor;
     keep(scan, changed);
@@ -126,31 +126,31 @@ ChangedWorld move(const ScanList& world, std::mt19937& random) {
   return changed;
 }
 
-ChangedWorld drop_last(const ScanList& world, std::mt19937& random) {
+ChangedWorld drop_last(const HeldScans& world, std::mt19937& random) {
   const std::size_t left = 1 + index_below(world.size() - 1, random);
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (std::size_t i = 0; i < left; ++i) keep(world.scans()[i], changed);
   return changed;
 }
 
-ChangedWorld shuffle_scans(const ScanList& world, std::mt19937& random) {
+ChangedWorld shuffle_scans(const HeldScans& world, std::mt19937& random) {
   const std::vector<std::size_t> place = shuffled(world.size(), random);
   std::vector<std::size_t> from(place.size());
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (const Scan& scan : world.scans()) {
     from[place[scan.index]] = scan.index;
     changed.now.push_back(unmoved(place[scan.index], scan.size()));
   }
-  for (const std::size_t i : from) changed.scans.add(world.scans()[i]);
+  for (const std::size_t i : from) changed.scans.add_scan(world.scans()[i]);
   return changed;
 }
 
-ChangedWorld repeat_scan(const ScanList& world, std::mt19937& random) {
+ChangedWorld repeat_scan(const HeldScans& world, std::mt19937& random) {
   const std::size_t repeated = index_below(world.size(), random);
-  ChangedWorld changed{ScanList(world.sensor()), {}};
+  ChangedWorld changed{HeldScans(world.sensor()), {}};
   for (const Scan& scan : world.scans()) {
     keep(scan, changed);
-    if (scan.index == repeated) changed.scans.add(scan);
+    if (scan.index == repeated) changed.scans.add_scan(scan);
   }
   return changed;
 }
@@ -172,15 +172,15 @@ const std::vector<Change>& changes() {
   return all;
 }
 
-ScanList with_other_labels(const ScanList& world, bool other_times) {
-  ScanList other(world.sensor());
+HeldScans with_other_labels(const HeldScans& world, bool other_times) {
+  HeldScans other(world.sensor());
   for (Scan scan : world.scans()) {
     if (other_times) scan.time_s = 1000.0 - 7.0 * scan.time_s;
     scan.name = "other " + scan.name;
     scan.reflectance.assign(scan.size(), static_cast<float>(scan.index));
     scan.stored_index.resize(scan.size());
     std::iota(scan.stored_index.rbegin(), scan.stored_index.rend(), 0U);
-    other.add(std::move(scan));
+    other.add_scan(std::move(scan));
   }
   return other;
 }

@@ -16,7 +16,7 @@ struct Place {
 
 /// A world after a change, and where its points are now.
 struct ChangedWorld {
-  ScanList scans;
+  HeldScans scans;
   /// By scan of the world before, and by point of it. Scans that are gone are left out; they are
   /// the last ones.
   std::vector<std::vector<Place>> now;
@@ -26,7 +26,7 @@ struct ChangedWorld {
 /// A change of what a method is given.
 struct Change {
   const char* name;
-  ChangedWorld (*make)(const ScanList& world, std::mt19937& random);
+  ChangedWorld (*make)(const HeldScans& world, std::mt19937& random);
 };
 
 /// All changes, in the order of the columns of `claims`.
@@ -34,6 +34,6 @@ const std::vector<Change>& changes();
 
 /// The same scans with other names and intensities, and other times if `other_times`, of which a
 /// method must take no notice.
-ScanList with_other_labels(const ScanList& world, bool other_times);
+HeldScans with_other_labels(const HeldScans& world, bool other_times);
 
 }  // namespace raymoval::toy

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStep = 1.5, kHalfView = 75.0, kLowest = -20.0;  // Degrees.
 constexpr int kRows = 21;
-constexpr double kRange = 25.0, kNoise = 0.01, kTick = 0.1;
+constexpr double kRange = 25.0, kNoise = 0.01;
 constexpr double kJitter = 0.1;  // Degrees.
 
 SensorModel coarse_sensor() {
@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3f> returns(const std::vector<Box>& boxes, const Pose& 
       const double a = (azimuth + number_between(-kJitter, kJitter, random)) * kDegree;
       const double e =
           (kLowest + row * kStep + number_between(-kJitter, kJitter, random)) * kDegree;
-      const Eigen::Vector3d ray(std::cos(a) * std::cos(e), std::sin(a) * std::cos(e), std::sin(e));
+      const Eigen::Vector3d ray = direction(a, e);
       double range = kRange;
       for (const Box& box : boxes) {
         range = std::min(range, enter_distance(box, T_world_sensor.translation(),
@@ -70,7 +70,7 @@ double number_between(double low, double high, std::mt19937& random) {
   return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
 }
 
-ScanList random_world(const WorldPlan& plan) {
+HeldScans random_world(const WorldPlan& plan) {
   std::mt19937 random(plan.seed);
   const auto between = [&](double low, double high) { return number_between(low, high, random); };
   const double road = between(-1.7, -1.6), speed = between(0.2, 0.9);
@@ -83,19 +83,15 @@ ScanList random_world(const WorldPlan& plan) {
   std::vector<Mover> movers;
   for (int i = 0; i < plan.movers; ++i) movers.push_back(random_mover(road, random));
 
-  ScanList world(coarse_sensor());
+  HeldScans world(coarse_sensor());
   for (int i = 0; i < plan.scans; ++i) {
     std::vector<Box> boxes = standing;
     for (const Mover& mover : movers) {
       boxes.push_back({mover.box.low + i * mover.velocity, mover.box.high + i * mover.velocity});
     }
-    Scan scan;
-    scan.name = std::to_string(i);
-    scan.time_s = kTick * i;
-    scan.T_world_sensor = Eigen::Translation3d(speed * i, between(-0.05, 0.05), 0.0) *
-                          Eigen::AngleAxisd(between(-0.05, 0.05), Eigen::Vector3d::UnitZ());
-    scan.points = returns(boxes, scan.T_world_sensor, random);
-    world.add(std::move(scan));
+    const Pose T_world_sensor = Eigen::Translation3d(speed * i, between(-0.05, 0.05), 0.0) *
+                                Eigen::AngleAxisd(between(-0.05, 0.05), Eigen::Vector3d::UnitZ());
+    world.add(returns(boxes, T_world_sensor, random), T_world_sensor);
   }
   return world;
 }

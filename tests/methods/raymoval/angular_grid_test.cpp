@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "core/error.h"
 #include "core/simd/instruction_set_scope.h"
 #include "methods/raymoval/kernels/voxel_runs.h"
 
@@ -115,14 +114,6 @@ TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on
       REQUIRE(voxels[k] == voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), 5.0));
     }
   }
-}
-
-TEST_CASE("a point beyond the lattice is an error") {
-  Scan scan;
-  scan.points.assign(100, {1, 2, 3});
-  scan.points[50].x() = 1e9F;
-  VoxelRuns runs;
-  CHECK_THROWS_AS(find_voxels(scan, 5.0, 1, runs), DataError);
 }
 
 }  // namespace raymoval::raymoval_test

@@ -6,39 +6,17 @@
 #include <set>
 
 #include "core/stage_timer.h"
-#include "methods/registry.h"
-#include "tests/methods/toy_world.h"
+#include "tests/methods/raymoval/box_scenes.h"
 
 namespace raymoval::raymoval_test {
-using toy::Box;
-using toy::World;
 
 namespace {
 
-constexpr int kWallIndex = 0;
-constexpr int kOtherIndex = 1;
-
-/// A wall 12 m ahead that ends at `wall_top`, and before it a box of car size in the first five of
-/// ten scans. The sensor looks `turn` to the left of it.
+/// Ten scans of a wall, and before it a box in the first five. The sensor looks `turn` to the left.
 World box_before_wall(double wall_top = 3.0, double turn = 0.0) {
-  World world{toy::Scanner{}};
-  for (int i = 0; i < 10; ++i) {
-    std::vector<Box> boxes = {{{12.03, -9, -3}, {12.5, 9, wall_top}}};
-    if (i < 5) boxes.push_back({{6.03, -1, -2}, {8, 1, 0.6}});
-    Pose pose = Pose::Identity();
-    pose.translation() = Eigen::Vector3d(0.013 * i + 0.01, 0.02, 0.03);
-    pose.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).matrix();
-    world.scan(boxes, pose);
-  }
-  return world;
-}
-
-/// One bin per beam and two beams per bin along a row: the toy scanner needs no more.
-ConfiguredMethod on_toy_grid(const std::string& variant) {
-  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:" + variant);
-  set_parameter(method.configuration, "azimuth_bins", std::int64_t{360});
-  set_parameter(method.configuration, "elevation_bins", std::int64_t{44});
-  return method;
+  const Pose left(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+  return box_before(
+      {wall(wall_top)}, car(-2), 10, [](int i) { return i < 5; }, {}, left);
 }
 
 /// Keeps the codes of a run's reasons.
@@ -83,21 +61,21 @@ std::map<std::string, double> reasons_of(const ConfiguredMethod& method, const W
 TEST_CASE("each point's reason fits its answer", "[raymoval]") {
   const World world = box_before_wall();
   ConfiguredMethod method = on_toy_grid("offline");
-  CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
-  CHECK(reasons_of(method, world, kWallIndex)["no scan cont"] > 99);
+  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kWallOwner)["no scan cont"] > 99);
   // Validation gives all back where a cluster needs more points than the box has: at 6 m 1,000
   // times (10 / 6)^2. Without validation all is removed.
   set_parameter(method.configuration, "cluster_points", 1000.0);
-  CHECK(reasons_of(method, world, kOtherIndex)["it was a can"] > 95);
+  CHECK(reasons_of(method, world, kOtherOwner)["it was a can"] > 95);
   set_parameter(method.configuration, "validate", false);
-  CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
 }
 
 TEST_CASE("a point that eq. 11 alone speaks against is not told to have been seen through",
           "[raymoval]") {
   // The wall ends at 0.3 m, so that no return tells that the upper half of the box has left.
   const World world = box_before_wall(0.3);
-  auto shares = reasons_of(on_toy_grid("offline"), world, kOtherIndex);
+  auto shares = reasons_of(on_toy_grid("offline"), world, kOtherOwner);
   CHECK(shares["a scan saw t"] > 20);
   CHECK(shares["it stands in"] > 0.5);
 }
@@ -105,10 +83,10 @@ TEST_CASE("a point that eq. 11 alone speaks against is not told to have been see
 TEST_CASE("the first point of a scan has its answer and its reason, too", "[raymoval]") {
   // The sensor looks away from the box, which is where its turn begins.
   const World world = box_before_wall(3.0, std::numbers::pi);
-  REQUIRE(world.owner[0][0] == kOtherIndex);
+  REQUIRE(world.owner[0][0] == kOtherOwner);
   ConfiguredMethod method = on_toy_grid("offline");
   CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
-  CHECK(reasons_of(method, world, kOtherIndex)["a scan saw t"] > 80);
+  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
 }
 
 namespace {

@@ -35,7 +35,7 @@ class Lookout {
   std::vector<VoxelIndex> seen_through(const std::vector<Return>& returns,
                                        const VoxelIndex& voxel) {
     StaticMap map(parameters.voxel_size);
-    map.integrate(voxel);
+    map.integrate({voxel});
     ScanAgainstMap test(parameters, sensor);
     EvidenceFinder finder(parameters, sensor, test.grid());
     test.project_scan(scan_of(returns, test.grid()), {});

@@ -5,11 +5,13 @@
 
 #include "core/angle.h"
 #include "core/simd/instruction_set_scope.h"
+#include "tests/methods/held_scans.h"
 #include "tests/methods/raymoval/random_map.h"
 
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 using random_map::Random;
+using toy::pose_at;
 
 namespace {
 
@@ -22,6 +24,11 @@ AngularGrid random_grid(Random& random) {
   grid.elevation_max = grid.elevation_min + random.real(5, 70) * kDegree;
   grid.elevation_max = std::min(grid.elevation_max, 90 * kDegree);
   return grid;
+}
+
+/// The image of three columns, the middle one of which looks along the sensor's x axis.
+FirstHitImage look_ahead(OccupancyMap& map, const Pose& pose, const RayLimits& limits) {
+  return cast_first_hits(map, pose, {3, 1, -0.1, 0.1}, limits, 1);
 }
 
 }  // namespace
@@ -99,11 +106,8 @@ TEST_CASE("voxels within the minimum range stop no ray, the next voxel of the sa
   // 2.8, 2.7 m from the sensor; with 2.71 m it is the one after.
   OccupancyMap map(0.2);
   for (int x = 0; x < 200; ++x) map.insert({x, 0, 0});
-  Pose pose = Pose::Identity();
-  pose.translation() = Eigen::Vector3d(0.1, 0.1, 0.1);
-  const AngularGrid grid{3, 1, -0.1, 0.1};  // The middle one of three columns looks along x.
   const auto ahead = [&](double minimum) {
-    return cast_first_hits(map, pose, grid, {minimum, 60.0}, 1).range[1];
+    return look_ahead(map, pose_at(0.1, 0.1, 0.1), {minimum, 60.0}).range[1];
   };
   CHECK(ahead(0.0) == 0.0F);
   CHECK(ahead(2.65) == Approx(2.7));
@@ -148,9 +152,8 @@ TEST_CASE("the outermost voxel of a brick is hit at the end of the range, whiche
           Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), ahead).toRotationMatrix();
       pose.translation().setConstant(0.5);
       pose.translation()[axis] = sign > 0 ? 0.9 : 0.1;
-      const AngularGrid grid{3, 1, -0.1, 0.1};
       const auto hit = [&](double maximum) {
-        return cast_first_hits(map, pose, grid, {0.0, maximum}, 1).range[1];
+        return look_ahead(map, pose, {0.0, maximum}).range[1];
       };
       INFO(axis << ", " << sign);
       CHECK(hit(expected + 0.05) == Approx(expected));
@@ -165,10 +168,7 @@ TEST_CASE("a sensor far off in a large map sees what is near it") {
     OccupancyMap map(0.2);
     for (int k = 0; k < 40; ++k) map.insert({100 * (k % 8) - 350, 100 * (k / 8) - 250, 40});
     map.insert(map.voxel_of(at + Eigen::Vector3d(5.2, 0, 0)));
-    Pose pose = Pose::Identity();
-    pose.translation() = at;
-    const AngularGrid grid{3, 1, -0.1, 0.1};  // The middle one of three columns looks along x.
-    CHECK(cast_first_hits(map, pose, grid, {0.0, 10.0}, 1).range[1] == Approx(5.1));
+    CHECK(look_ahead(map, pose_at(at.x(), at.y(), at.z()), {0.0, 10.0}).range[1] == Approx(5.1));
   }
 }
 
@@ -176,10 +176,7 @@ TEST_CASE("a brick that holds no voxel yet stops no ray") {
   OccupancyMap map(0.2);
   map.insert({40, 0, 0});
   map.make_brick({2, 0, 0});  // Between the sensor and the voxel.
-  Pose pose = Pose::Identity();
-  pose.translation() = Eigen::Vector3d(0.1, 0.1, 0.1);
-  const AngularGrid grid{3, 1, -0.1, 0.1};  // The middle one of three columns looks along x.
-  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
+  const FirstHitImage image = look_ahead(map, pose_at(0.1, 0.1, 0.1), {0.0, 60.0});
   CHECK(image.range[1] == Approx(7.9));
   CHECK(image.range[0] == kNoRange);
 }
@@ -238,10 +235,9 @@ TEST_CASE("a ray through the seam of two boxes meets one of them") {
   for (int y = -60; y < 60; ++y) {
     for (int z = -60; z < 60; ++z) map.insert({25 + ((y + z) & 1), y, z});
   }
-  Pose pose = Pose::Identity();
-  pose.translation() = Eigen::Vector3d(0.0, 0.0, 0.0);  // On a lattice corner.
   const AngularGrid grid{720, 180, -0.7, 0.7};
-  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
+  // The sensor is on a lattice corner.
+  const FirstHitImage image = cast_first_hits(map, Pose::Identity(), grid, {0.0, 60.0}, 1);
   for (int bin = 0; bin < grid.size(); ++bin) {
     const Eigen::Vector3d direction = grid.direction(bin);
     const double range = 5.0 / direction.x();
@@ -254,10 +250,7 @@ TEST_CASE("a ray through the seam of two boxes meets one of them") {
 TEST_CASE("the voxel of a hit is the one the exact ray meets") {
   OccupancyMap map(0.2);
   map.insert({10, 0, 0});
-  Pose pose = Pose::Identity();
-  pose.translation() = Eigen::Vector3d(0.1, 0.1, 0.1);
-  const AngularGrid grid{3, 1, -0.1, 0.1};
-  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
+  const FirstHitImage image = look_ahead(map, pose_at(0.1, 0.1, 0.1), {0.0, 60.0});
   CHECK(image.voxel(map, 1) == VoxelIndex(10, 0, 0));
   CHECK_FALSE(image.voxel(map, 0));
   map.erase({10, 0, 0});

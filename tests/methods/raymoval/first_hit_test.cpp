@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "tests/methods/toy_world.h"
@@ -127,19 +126,6 @@ TEST_CASE("a ray that starts on walls and is next to level is in the lower voxel
   }
 }
 
-TEST_CASE("voxels are erased and negative ones are distinct") {
-  OccupancyMap map(0.2);
-  CHECK(map.insert({-1, -8, -9}));
-  CHECK_FALSE(map.insert({-1, -8, -9}));
-  CHECK(map.contains({-1, -8, -9}));
-  CHECK_FALSE(map.contains({1, 8, 9}));
-  CHECK(map.contains_near({0, -7, -8}, 1));
-  CHECK_FALSE(map.contains_near({1, -7, -8}, 1));
-  CHECK(map.erase({-1, -8, -9}));
-  CHECK_FALSE(map.erase({-1, -8, -9}));
-  CHECK(map.size() == 0);
-}
-
 namespace {
 
 /// Slow exact answer: every voxel of the map as a box.
@@ -189,29 +175,6 @@ TEST_CASE("first hits equal those of a test of every voxel") {
       CHECK(found->voxel == expected->voxel);
     }
   }
-}
-
-TEST_CASE("eqs 4-7: the image of a wall, for any number of threads") {
-  // A wall of voxels at x = 4.0 .. 4.2, seen from a sensor that hangs upside down.
-  OccupancyMap map(0.2);
-  for (int y = -40; y < 40; ++y) {
-    for (int z = -40; z < 40; ++z) map.insert({20, y, z});
-  }
-  Pose pose = Pose::Identity();
-  pose.translation() = Eigen::Vector3d(0.05, 0.03, 0.07);
-  pose.linear() = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).matrix();
-  const AngularGrid grid{360, 20, -0.2, 0.2};
-  const FirstHitImage image = cast_first_hits(map, pose, grid, {0.0, 60.0}, 1);
-  for (int bin = 0; bin < grid.size(); ++bin) {
-    const Eigen::Vector3d direction = pose.linear() * grid.direction(bin);
-    const auto at = static_cast<std::size_t>(bin);
-    const double range = (4.0 - 0.05) / direction.x();
-    const bool meets = direction.x() > 0 && std::abs(range * direction.y()) < 7.9;
-    if (meets) CHECK(image.range[at] == Approx(range).epsilon(1e-6));
-    if (direction.x() <= 0) CHECK(image.range[at] == kNoRange);
-  }
-  const FirstHitImage parallel = cast_first_hits(map, pose, grid, {0.0, 60.0}, 8);
-  CHECK(parallel.range == image.range);
 }
 
 }  // namespace raymoval::raymoval_test

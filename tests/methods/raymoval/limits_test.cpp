@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Each inequality of the paper exactly at its bound, and each rounding half way.
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "core/angle.h"
-#include "core/simd/instruction_set_scope.h"
 #include "methods/common/range_adaptive_clusters.h"
 #include "methods/raymoval/consistency.h"
 #include "methods/raymoval/scan_against_map.h"
@@ -39,28 +36,6 @@ Parameters give_nothing_back() {
 }
 
 }  // namespace
-
-TEST_CASE("eqs 2-3: points just outside the rows are in no bin, on any processor",
-          "[raymoval][simd]") {
-  // Rows of one degree from -45 to 45; the points look 45.5 and -45.5 degrees up, and 44.5.
-  const double degree = std::acos(-1.0) / 180.0;
-  const AngularGrid grid{360, 90, -45 * degree, 45 * degree};
-  Scan scan;
-  for (int k = 0; k < 48; ++k) {
-    const double elevation = (k % 3 == 0 ? 45.5 : k % 3 == 1 ? -45.5 : 44.5) * degree;
-    scan.points.emplace_back(
-        Eigen::Vector3d(9 * std::cos(elevation), 1, 9 * std::sin(elevation)).cast<float>());
-  }
-  for (const InstructionSet set : supported_instruction_sets()) {
-    const InstructionSetScope scope(set);
-    ProjectedScan projected;
-    project(scan, grid, 2.0, 1, projected);
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-      const Spherical at = to_spherical(scan.points[k].cast<double>());
-      REQUIRE(projected.bin[k] == grid.bin_of(at.azimuth, at.elevation).value_or(-1));
-    }
-  }
-}
 
 TEST_CASE("grids of the sensor's steps have as many bins as the steps need", "[raymoval]") {
   Parameters parameters;
@@ -245,20 +220,6 @@ TEST_CASE("clusters in one voxel, or with voxels beside each other, are one grou
   CHECK(joined_groups({0, 0, 1}, {0, 1, 2}) == std::vector<int>{0, 0, 2});
   CHECK(joined_groups({0, 1, 0}, {0, 1, 1}) == std::vector<int>{0, 0, 0});
   CHECK(joined_groups({0, 1}, {1, 0}) == std::vector<int>{1, 0});
-  // In every direction, as far as the gap and no farther.
-  const VoxelKey middle = voxel_key(3, -5, 7);
-  for (int x = -3; x <= 3; ++x) {
-    for (int y = -3; y <= 3; ++y) {
-      for (int z = -3; z <= 3; ++z) {
-        const int distance = std::max({std::abs(x), std::abs(y), std::abs(z)});
-        const VoxelKey other = voxel_key(3 + x, -5 + y, 7 + z);
-        for (const int gap : {1, 2}) {
-          REQUIRE(voxel_components({middle, other}, gap) ==
-                  std::vector<int>{0, distance <= gap ? 0 : 1});
-        }
-      }
-    }
-  }
 }
 
 TEST_CASE("the rows reach beyond the sensor's view by the margin, and not beyond the poles",

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval/map_reference.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "core/simd/instruction_set_scope.h"
+#include "tests/methods/raymoval/window_values.h"
 
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
@@ -81,22 +80,6 @@ std::vector<float> random_image(const AngularGrid& grid, unsigned seed, unsigned
   return values;
 }
 
-/// Values of the 3 x 3 window around a bin, infinite ones left out, ascending.
-std::vector<float> window_of(const std::vector<float>& values, const AngularGrid& grid, int bin) {
-  std::vector<float> window;
-  for (int dj = -1; dj <= 1; ++dj) {
-    for (int di = -1; di <= 1; ++di) {
-      const int j = grid.elevation_of(bin) + dj;
-      const int i = (grid.azimuth_of(bin) + di + grid.azimuth_bins) % grid.azimuth_bins;
-      if (j < 0 || j >= grid.elevation_bins) continue;
-      const float value = values[static_cast<std::size_t>(j * grid.azimuth_bins + i)];
-      if (value != kInf) window.push_back(value);
-    }
-  }
-  std::sort(window.begin(), window.end());
-  return window;
-}
-
 }  // namespace
 
 TEST_CASE("window percentiles equal those of each window, on every instruction set", "[simd]") {
@@ -114,7 +97,9 @@ TEST_CASE("window percentiles equal those of each window, on every instruction s
         for (int bin = 0; bin < grid.size(); ++bin) {
           const auto at = static_cast<std::size_t>(bin);
           if (wanted[at] == kInf) continue;
-          const auto window = window_of(values, grid, bin);
+          std::vector<float> window = values_around(values, {grid, 1, 1}, bin);
+          std::erase(window, kInf);
+          std::sort(window.begin(), window.end());
           const int count = static_cast<int>(window.size());
           const auto expected = [&](double q) {
             return count == 0 ? kInf : percentile_of_sorted(window.data(), count, q);

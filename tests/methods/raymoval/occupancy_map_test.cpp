@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "methods/common/sparse_blocks.h"
 #include "tests/methods/raymoval/random_map.h"
 
 namespace raymoval::raymoval_test {
@@ -160,13 +161,7 @@ TEST_CASE("a voxel nearby is found across the borders of bricks") {
                            random.integer(-14, 14));
     const int dilation = k % 4;
     bool expected = false;
-    for (int dx = -dilation; dx <= dilation; ++dx) {
-      for (int dy = -dilation; dy <= dilation; ++dy) {
-        for (int dz = -dilation; dz <= dilation; ++dz) {
-          expected |= map.contains(voxel + VoxelIndex(dx, dy, dz));
-        }
-      }
-    }
+    for_each_around(voxel, dilation, [&](const VoxelIndex& at) { expected |= map.contains(at); });
     REQUIRE(map.contains_near(voxel, dilation) == expected);
   }
 }

@@ -1,54 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "methods/raymoval/raymoval.h"
-
+// The whole method on a box before a wall.
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "core/text.h"
-#include "methods/registry.h"
-#include "tests/methods/toy_world.h"
+#include "tests/methods/moved_world.h"
+#include "tests/methods/raymoval/box_scenes.h"
 
 namespace raymoval::raymoval_test {
-using namespace raymoval::raymoval_method;
-using toy::Box;
-using toy::World;
 
 namespace {
 
-// A wall 12 m ahead and a box of car size 6 m ahead. The sensor stands off the lattice.
-const Box kWall{{12.03, -9, -3}, {12.5, 9, 3}};
-const Box kCar{{6.03, -1, -1}, {8, 1, 0.6}};
+const Box kWall = wall(), kCar = car();
 const Box kPole{{7.03, -0.05, -3}, {7.13, 0.05, 3}};
-constexpr int kWallOwner = 0;
-constexpr int kOtherOwner = 1;
 
-Pose pose_at(double x, double y, double z) {
-  Pose pose = Pose::Identity();
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
+/// Five scans of the wall with the box, then five without.
+World box_that_leaves(const toy::Scanner& scanner = {}, const Pose& turn = Pose::Identity()) {
+  return box_before(
+      {kWall}, kCar, 10, [](int i) { return i < 5; }, scanner, turn);
 }
 
-/// Five scans of the wall with the box, then five without (or the other way round).
-World box_that(bool leaves, const toy::Scanner& scanner = {}, const Pose& move = Pose::Identity(),
-               const Pose& sensor_turn = Pose::Identity()) {
-  World world(scanner);
-  const auto moved = [&](const Box& box) {
-    return Box{box.low + move.translation(), box.high + move.translation()};
-  };
-  for (int i = 0; i < 10; ++i) {
-    std::vector<Box> boxes = {moved(kWall)};
-    if ((i < 5) == leaves) boxes.push_back(moved(kCar));
-    world.scan(boxes, move * pose_at(0.013 * i + 0.01, 0.02, 0.03) * sensor_turn);
-  }
-  return world;
-}
-
-/// One bin per beam and two beams per bin along a row: the toy scanner needs no more.
-ConfiguredMethod configured(const std::string& variant) {
-  ConfiguredMethod method = MethodRegistry::built_in().configure("raymoval:" + variant);
-  set_parameter(method.configuration, "azimuth_bins", std::int64_t{360});
-  set_parameter(method.configuration, "elevation_bins", std::int64_t{44});
-  return method;
+/// The other way round.
+World box_that_arrives() {
+  return box_before({kWall}, kCar, 10, [](int i) { return i >= 5; });
 }
 
 /// Margins so wide that eq. 11 flags nothing.
@@ -58,20 +31,27 @@ void switch_eq11_off(ConfiguredMethod& method) {
 }
 
 MaskStore run(const std::string& variant, const World& world, int threads = 1) {
-  return toy::masks_of(*configured(variant).make(), world, threads);
+  return toy::masks_of(*on_toy_grid(variant).make(), world, threads);
 }
 
 }  // namespace
 
 TEST_CASE("a box that leaves is removed from every scan, the wall behind it stays") {
-  const World world = box_that(true);
-  const MaskStore masks = run("offline", world);
-  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
-  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+  // Seen by a scanner that sees all around, by one that sees only ahead, and upside down.
+  toy::Scanner ahead;
+  ahead.azimuth_from = -30;
+  ahead.azimuth_to = 30;
+  const Pose upside_down(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+  for (const World& world :
+       {box_that_leaves(), box_that_leaves(ahead), box_that_leaves({}, upside_down)}) {
+    const MaskStore masks = run("offline", world);
+    CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
+    CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
+  }
 }
 
 TEST_CASE("a box that arrives stands in front of the map and is flagged at once") {
-  const World world = box_that(false);
+  const World world = box_that_arrives();
   const MaskStore masks = run("online", world);
   // The front is at 6 m: 12 - 6 is more than 0.3 + 0.35 * 6.
   CHECK(toy::removed_share(world, masks, kOtherOwner, 5, 9) > 0.95);
@@ -79,7 +59,7 @@ TEST_CASE("a box that arrives stands in front of the map and is flagged at once"
 }
 
 TEST_CASE("online knows nothing of later scans") {
-  const World world = box_that(true);
+  const World world = box_that_leaves();
   const MaskStore masks = run("online", world);
   CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) == 0.0);
 }
@@ -93,22 +73,17 @@ TEST_CASE("beams far apart are no witnesses for each other") {
     INFO(step);
     toy::Scanner scanner;
     scanner.elevation_step = step;
-    World world(scanner);
-    for (int i = 0; i < 10; ++i) {
-      std::vector<Box> boxes = {kWall, sign};
-      if (i < 5) boxes.push_back(low_box);
-      world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
-    }
+    const World world = box_before(
+        {kWall, sign}, low_box, 10, [](int i) { return i < 5; }, scanner);
     CHECK(toy::removed_share(world, run("offline", world), 2, 0, 4) > 0.75);
-    ConfiguredMethod method = configured("offline");
+    ConfiguredMethod method = on_toy_grid("offline");
     set_parameter(method.configuration, "erase_elevation_window", std::int64_t{8});
     CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), 2, 0, 4) < 0.5);
   }
 }
 
 TEST_CASE("a box that stays is static") {
-  World world{toy::Scanner{}};
-  for (int i = 0; i < 8; ++i) world.scan({kWall, kCar}, pose_at(0.013 * i + 0.01, 0.02, 0.03));
+  const World world = box_before({kWall}, kCar, 8, [](int) { return true; });
   for (const char* variant : {"offline", "online", "table1"}) {
     INFO(variant);
     const MaskStore masks = run(variant, world);
@@ -133,7 +108,7 @@ TEST_CASE("a road that lies low in its voxels stays whole while the sensor drive
   const MaskStore masks = run("offline", world);
   CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 19) < 0.02);
   // The distance along the surface is what saves it.
-  ConfiguredMethod method = configured("offline");
+  ConfiguredMethod method = on_toy_grid("offline");
   set_parameter(method.configuration, "erase_height", 0.0);
   CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 19) > 0.05);
 }
@@ -141,9 +116,9 @@ TEST_CASE("a road that lies low in its voxels stays whole while the sensor drive
 TEST_CASE("eq. 11 decides by its margin") {
   // The box's front arrives at 6 m, and the wall of the map is twice as far: the rays would go on
   // for as far as they went. That is more than 0.3 + 0.35 * 6 and less than 0.3 + 1 * 6.
-  const World world = box_that(false);
+  const World world = box_that_arrives();
   const auto share = [&](double tau0, double tau1) {
-    ConfiguredMethod method = configured("online");
+    ConfiguredMethod method = on_toy_grid("online");
     set_parameter(method.configuration, "tau0", tau0);
     set_parameter(method.configuration, "tau1", tau1);
     return toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 5, 9);
@@ -156,14 +131,8 @@ TEST_CASE("eq. 11 decides by its margin") {
 TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
   // The wall ends at 0.3 m, so nothing lies behind the upper half of the box: when it has left, no
   // return tells that its voxels are empty. Beside what was seen through, eq. 11 finds its edge.
-  const Box low_wall{{12.03, -9, -3}, {12.5, 9, 0.3}};
-  World world{toy::Scanner{}};
-  for (int i = 0; i < 10; ++i) {
-    std::vector<Box> boxes = {low_wall};
-    if (i < 5) boxes.push_back(kCar);
-    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
-  }
-  ConfiguredMethod method = configured("offline");
+  const World world = box_before({wall(0.3)}, kCar, 10, [](int i) { return i < 5; });
+  ConfiguredMethod method = on_toy_grid("offline");
   const auto share = [&] {
     return toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 0, 4);
   };
@@ -176,79 +145,28 @@ TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
 
 TEST_CASE("online, what stands where a scan has seen through is removed") {
   // The box comes back. Without eq. 11 only what was seen through tells that it moves.
-  World world{toy::Scanner{}};
-  for (int i = 0; i < 12; ++i) {
-    std::vector<Box> boxes = {kWall};
-    if (i < 4 || i >= 8) boxes.push_back(kCar);
-    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
-  }
-  ConfiguredMethod method = configured("online");
+  const World world = box_before({kWall}, kCar, 12, [](int i) { return i < 4 || i >= 8; });
+  ConfiguredMethod method = on_toy_grid("online");
   switch_eq11_off(method);
   CHECK(toy::removed_share(world, toy::masks_of(*method.make(), world), kOtherOwner, 8, 11) > 0.95);
 }
 
-TEST_CASE("a sensor that sees only ahead judges only what it sees") {
-  toy::Scanner scanner;
-  scanner.azimuth_from = -30;
-  scanner.azimuth_to = 30;
-  const World world = box_that(true, scanner);
-  const MaskStore masks = run("offline", world);
-  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
-  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
-}
-
-TEST_CASE("an upside-down sensor gives the same verdicts") {
-  Pose turn = Pose::Identity();
-  turn.linear() = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).matrix();
-  const World world = box_that(true, {}, Pose::Identity(), turn);
-  const MaskStore masks = run("offline", world);
-  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) > 0.95);
-  CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
-}
-
 TEST_CASE("far from the origin nothing changes") {
   // A shift by whole voxels moves the lattice onto itself.
-  const World near = box_that(true);
-  const World far = box_that(true, {}, pose_at(400000 * 0.2, -250000 * 0.2, 500 * 0.2));
-  const MaskStore near_masks = run("offline", near);
-  const MaskStore far_masks = run("offline", far);
-  std::size_t points = 0, different = 0;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    const Mask a = near_masks.get(i), b = far_masks.get(i);
-    REQUIRE(a.size() == b.size());
-    points += a.size();
-    for (std::size_t k = 0; k < a.size(); ++k) different += a[k] != b[k] ? 1 : 0;
-  }
+  const World near = box_that_leaves();
+  const toy::MovedWorld far(near, pose_at(400000 * 0.2, -250000 * 0.2, 500 * 0.2));
+  const ConfiguredMethod method = on_toy_grid("offline");
+  const std::size_t different = toy::different_verdicts(
+      toy::masks_of(*method.make(), near), toy::masks_of(*method.make(), far), near.size());
   // Points within float rounding of a voxel wall may change sides.
-  CHECK(different * 1000 < points);
+  CHECK(different * 1000 < toy::point_count(near));
 }
 
 TEST_CASE("directions without return erase nothing") {
   // The box stands before nothing at all; when it leaves, its directions have no returns.
-  World world{toy::Scanner{}};
   const Box side{{-9, 6.03, -3}, {9, 6.5, 3}};
-  for (int i = 0; i < 10; ++i) {
-    std::vector<Box> boxes = {side};
-    if (i < 4) boxes.push_back(kCar);
-    world.scan(boxes, pose_at(0.013 * i + 0.01, 0.02, 0.03));
-  }
+  const World world = box_before({side}, kCar, 10, [](int i) { return i < 4; });
   CHECK(toy::removed_share(world, run("offline", world), kOtherOwner, 0, 3) == 0.0);
-}
-
-TEST_CASE("table1 uses every printed value in both tests") {
-  const auto method = MethodRegistry::built_in().configure("raymoval:table1");
-  const Parameters p = parameter_table().read(method.configuration);
-  CHECK(p.azimuth_bins == 720);
-  CHECK(p.elevation_bins == 450);
-  CHECK(p.maximum_range == 60.0);
-  CHECK(p.voxel_size == 0.2);
-  CHECK(p.neighbourhood == 1);
-  CHECK(p.percentile == 0.9);
-  CHECK(p.tau0 == 0.3);
-  CHECK(p.tau1 == 0.35);
-  CHECK(p.erase_tau0 == 0.3);
-  CHECK(p.erase_tau1 == 0.35);
-  CHECK(p.erase_percentile == 0.9);
 }
 
 }  // namespace raymoval::raymoval_test

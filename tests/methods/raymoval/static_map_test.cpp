@@ -10,13 +10,11 @@ using namespace raymoval::raymoval_method;
 TEST_CASE("a voxel that was erased is never filled again", "[raymoval]") {
   const VoxelIndex voxel(1, 2, 3), never(1, 2, 4);
   StaticMap map(0.2);
-  map.integrate(voxel);
+  map.integrate({voxel});
   map.erase(never);  // Nothing stands there.
-  CHECK_FALSE(map.was_erased(never));
   map.erase(voxel);
-  map.integrate(voxel);
+  map.integrate({voxel});
   CHECK_FALSE(map.occupied().contains(voxel));
-  CHECK(map.was_erased(voxel));
   VoxelLookup found;
   map.look_up({voxel, never}, 1, found);
   CHECK(found.states == std::vector<VoxelState>{VoxelState::kErased, VoxelState::kEmpty});
@@ -66,7 +64,8 @@ TEST_CASE("points of new and old bricks in any order come into the map, dynamic 
                                                 VoxelState::kOccupied, VoxelState::kOccupied});
   map.integrate(voxels, found, Mask(6, 0));
   CHECK_FALSE(map.occupied().contains(origin));
-  CHECK(map.was_erased(origin));
+  map.look_up({origin}, 1, found);
+  CHECK(found.states == std::vector<VoxelState>{VoxelState::kErased});
   CHECK(map.occupied().contains(farther));
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "core/angle.h"
 #include "core/simd/instruction_set_scope.h"
 #include "tests/methods/raymoval/random_map.h"
+#include "tests/methods/raymoval/window_values.h"
 
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
@@ -18,22 +20,6 @@ std::vector<float> random_values(const AngularGrid& grid, double share, Random& 
     if (random.real(0, 1) < share) value = static_cast<float>(random.real(0, 50));
   }
   return values;
-}
-
-/// Whether a bin within `radius` columns and rows of `bin` has a finite value, looked at one by
-/// one.
-bool has_value_near(const std::vector<float>& values, const AngularGrid& grid, int bin,
-                    int radius) {
-  for (int dj = -radius; dj <= radius; ++dj) {
-    const int j = grid.elevation_of(bin) + dj;
-    if (j < 0 || j >= grid.elevation_bins) continue;
-    for (int di = -radius; di <= radius; ++di) {
-      const int n = grid.azimuth_bins;
-      const int i = ((grid.azimuth_of(bin) + di) % n + n) % n;
-      if (values[static_cast<std::size_t>(j * n + i)] != kNoRange) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -52,7 +38,9 @@ TEST_CASE("bins are wanted around every value, and nowhere else") {
     wanted.ask_for_all(grid);  // What was asked before is forgotten.
     wanted.ask_around(values, grid, radius);
     for (int bin = 0; bin < grid.size(); ++bin) {
-      REQUIRE(wanted.contains(grid, bin) == has_value_near(values, grid, bin, radius));
+      const auto around = values_around(values, {grid, radius, radius}, bin);
+      REQUIRE(wanted.contains(grid, bin) ==
+              std::any_of(around.begin(), around.end(), [](float v) { return v != kNoRange; }));
     }
     for (int i = 0; i < grid.azimuth_bins; ++i) {
       const auto after = static_cast<std::size_t>(grid.elevation_bins);

@@ -22,6 +22,12 @@ RangeImage image_of_return(float range) {
   return image;
 }
 
+/// Asks an image of all voxels.
+void ask(const RangeImage& image, const Scan& scan, EvidenceMap& map) {
+  const PosedImage posed{&image, scan.T_world_sensor, 0};
+  add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+}
+
 /// Decides on a voxel that 10 scans see through, some of them beside what is there.
 Verdict decided_with(std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
   Parameters parameters;
@@ -149,9 +155,8 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
   if (has_beams) sensor.azimuth_step = 0.25 * kDegree;
   RangeImage image(sensor, Parameters{});
   image.fill(scan);
-  const PosedImage posed{&image, scan.T_world_sensor, 0};
   map.evidence(roof).agree_scans = 1;
-  add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+  ask(image, scan, map);
   REQUIRE(map.evidence(roof).free_scans == 1);
   CHECK(map.evidence(roof).beside.free_since == (is_beside && has_beams ? 1 : 0));
 }
@@ -189,8 +194,7 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
     CHECK(map.evidence(roof).leading_free == (is_beside_column ? 0 : 1));
   };
   SECTION("by the scans in turn") {
-    const PosedImage posed{&image, scan.T_world_sensor, 0};
-    add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+    ask(image, scan, map);
     check();
   }
   SECTION("by earlier scans, for new voxels") {
@@ -224,8 +228,7 @@ TEST_CASE("a beam just below a roof that is seen from below is not heard") {
   model.elevation_step = 1.7 * kDegree;
   RangeImage image(model, Parameters{});
   image.fill(scan);
-  const PosedImage posed{&image, scan.T_world_sensor, 0};
-  add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
+  ask(image, scan, map);
   CAPTURE(passed_below, up, below);
   REQUIRE(map.evidence(roof).free_scans == 1);
   CHECK(map.evidence(roof).beside.column_before == (is_heard ? 0 : 1));

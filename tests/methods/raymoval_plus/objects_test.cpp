@@ -68,6 +68,15 @@ class Scene {
     divide_clusters(map, parameters, RunContext{}, segmented);
     return segmented;
   }
+  [[nodiscard]] std::vector<ObjectSummary> objects(const DirectionSteps& steps = {}) const {
+    return summarise_objects(segmented(), map, steps, parameters, RunContext{});
+  }
+  /// The verdicts after step 8.
+  [[nodiscard]] Verdicts with_low_points() const {
+    Verdicts verdicts = scan.verdict;
+    decide_low_points(scan, maps, parameters, RunContext{}, verdicts);
+    return verdicts;
+  }
   /// The number of dynamic points from number `first` to before `end`, after step 6.
   [[nodiscard]] int dynamic(int first, int end, const std::vector<int>& marked = {}) const {
     const Verdicts verdicts = decide_objects(segmented(), map, marked, parameters, RunContext{});
@@ -164,8 +173,7 @@ TEST_CASE("tracks may follow what was divided as it was before, unless hardly an
     for (int k = 0; k < settled; ++k) {
       scene.add({3.3, 0.1 * (k % 10), 0.4 + 0.1 * (k / 10 % 4)}, Verdict::kStatic, 30);
     }
-    const auto objects =
-        summarise_objects(scene.segmented(), scene.map, {}, scene.parameters, RunContext{});
+    const auto objects = scene.objects();
     const auto undivided = std::find_if(objects.begin(), objects.end(),
                                         [](const auto& object) { return object.is_undivided; });
     CHECK(scene.dynamic(0, 25 + settled) == 25);
@@ -195,8 +203,7 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
     scene.map.evidence(scene.scan.voxel[k]) = k < 6 ? VoxelEvidence{3, 3, 0, 0, 75'000, 75'008}
                                                     : VoxelEvidence{0, 3, 0, 0, 75'004, 75'010};
   }
-  const auto objects =
-      summarise_objects(scene.segmented(), scene.map, {}, scene.parameters, RunContext{});
+  const auto objects = scene.objects();
   REQUIRE(objects.size() == 1);
   CHECK(objects[0].cluster == 0);
   CHECK(objects[0].points == 8);
@@ -282,8 +289,7 @@ TEST_CASE("what is too sparse for the sensor that saw it is not followed, all el
   scene.add_column(9.05, 3.05, 0.4, 6, Verdict::kDynamic);
   const auto followed = [&](const DirectionSteps& steps) {
     std::vector<int> clusters;
-    for (const ObjectSummary& object :
-         summarise_objects(scene.segmented(), scene.map, steps, scene.parameters, RunContext{})) {
+    for (const ObjectSummary& object : scene.objects(steps)) {
       clusters.push_back(object.cluster);
     }
     return clusters;
@@ -345,24 +351,17 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
     Scene scene;
     for (const double z : {0.1, 0.25}) scene.add({5.05, 0.05, z}, Verdict::kDynamic);
     scene.add({5.05, 0.05, 0.15}, Verdict::kStatic);
-    Verdicts verdicts(3, Verdict::kDynamic);
-    verdicts[2] = Verdict::kStatic;
-    for (int k = 0; k < 10; ++k) {
-      verdicts.push_back(k < dynamic ? Verdict::kDynamic : Verdict::kStatic);
-      scene.add({5.05, 0.25, 0.3 + 0.06 * k}, verdicts.back());  // In the column beside.
+    for (int k = 0; k < 10; ++k) {  // In the column beside.
+      scene.add({5.05, 0.25, 0.3 + 0.06 * k}, k < dynamic ? Verdict::kDynamic : Verdict::kStatic);
     }
     // What is higher than 1 m and 0.03 of its range, 0.16 m, does not stand on these points.
-    for (int k = 0; k < 100; ++k) {
-      verdicts.push_back(Verdict::kDynamic);
-      scene.add({5.05, 0.05, 1.17 + 0.01 * k}, Verdict::kDynamic);
-    }
-    Verdicts decided = verdicts;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
+    for (int k = 0; k < 100; ++k) scene.add({5.05, 0.05, 1.17 + 0.01 * k}, Verdict::kDynamic);
+    const Verdicts decided = scene.with_low_points();
     const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
     CHECK(feet == (dynamic == 3   ? 0
                    : dynamic == 5 ? 2
                                   : 3));  // With half of it they are as they were.
-    CHECK(std::equal(decided.begin() + 3, decided.end(), verdicts.begin() + 3));
+    CHECK(std::equal(decided.begin() + 3, decided.end(), scene.scan.verdict.begin() + 3));
   }
 }
 
@@ -382,8 +381,7 @@ TEST_CASE("far away, low points follow what stands higher up and farther aside")
         scene.maps.steps.elevation = beams_apart;
         scene.add({range, 0.05, 0.1}, Verdict::kStatic);
         scene.add({range, 0.05 + side * aside, high}, Verdict::kDynamic);
-        Verdicts verdicts = scene.scan.verdict;
-        decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+        const Verdicts verdicts = scene.with_low_points();
         CAPTURE(range, high, aside, side, beams_apart);
         const bool is_near = aside == 0.0 || beams_apart > 0.0F;
         CHECK((verdicts[0] == Verdict::kDynamic) == (is_followed && is_near && range > 30.0));
@@ -413,10 +411,8 @@ TEST_CASE("a drop of rain near by takes no low points along, and what has two po
     scene.maps.steps.azimuth = step;
     scene.add({range, 0.05, 0.1}, Verdict::kStatic);
     for (int k = 0; k < points; ++k) scene.add({range, 0.05, 0.5 + 0.1 * k}, Verdict::kDynamic);
-    Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
     CAPTURE(range, points, step);
-    CHECK((verdicts[0] == Verdict::kDynamic) == is_followed);
+    CHECK((scene.with_low_points()[0] == Verdict::kDynamic) == is_followed);
   }
 }
 
@@ -427,9 +423,7 @@ TEST_CASE("a point above those of a foot is no drop") {
     scene.maps.steps.azimuth = 0.0035F;
     scene.add({5.05, 0.05, foot}, Verdict::kStatic);
     scene.add({5.05, 0.05, 0.34}, Verdict::kDynamic);
-    Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
-    CHECK((verdicts[0] == Verdict::kDynamic) == (foot > 0.22));
+    CHECK((scene.with_low_points()[0] == Verdict::kDynamic) == (foot > 0.22));
   }
 }
 
@@ -440,9 +434,7 @@ TEST_CASE("two drops are two lone points, unless they are as near as points of o
     scene.maps.steps.azimuth = 0.0035F;
     scene.add({5.05, 0.05, 0.1}, Verdict::kStatic);
     for (const double z : {0.5, 0.5 + apart}) scene.add({5.05, 0.05, z}, Verdict::kDynamic);
-    Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
-    CHECK((verdicts[0] == Verdict::kDynamic) == (apart < 0.115));
+    CHECK((scene.with_low_points()[0] == Verdict::kDynamic) == (apart < 0.115));
   }
 }
 
@@ -455,9 +447,7 @@ TEST_CASE("what is told to be a drop depends on the gap of clusters, with and wi
     scene.maps.steps.azimuth = 0.0035F;
     scene.add({5.05, 0.05, 0.1}, Verdict::kStatic);
     for (const double z : {0.5, 0.61}) scene.add({5.05, 0.05, z}, Verdict::kDynamic);
-    Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
-    return verdicts[0] == Verdict::kDynamic;
+    return scene.with_low_points()[0] == Verdict::kDynamic;
   };
   for (const bool objects : {true, false}) {
     for (const bool low_points : {true, false}) {
@@ -484,9 +474,7 @@ TEST_CASE("however far apart beams are, low points look no more than twenty colu
     scene.maps.steps.elevation = 0.5F;  // 15 m apart at that range.
     scene.add({30.05, 0.05, 0.1}, Verdict::kStatic);
     scene.add({30.05, 0.05 + aside, 0.5}, Verdict::kDynamic);
-    Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
-    CHECK((verdicts[0] == Verdict::kDynamic) == (aside < 4.1));
+    CHECK((scene.with_low_points()[0] == Verdict::kDynamic) == (aside < 4.1));
   }
 }
 
@@ -498,21 +486,15 @@ TEST_CASE("what is taken for ground follows what moves above it, if the ground i
       for (const Verdict foot : {Verdict::kDynamic, Verdict::kStatic}) {
         Scene scene;
         for (int n = 0; n < 100; ++n) scene.see_ground({5.05, 0.05, base});
-        Verdicts verdicts;
         for (const double z : {-0.02, 0.0, 0.006, 0.02}) {
           scene.add_ground({5.05, 0.05, base + z}, foot);
-          verdicts.push_back(foot);
         }
-        for (int k = 0; k < 6; ++k) {
-          scene.add({5.05, 0.25, 0.35 + 0.1 * k}, leg);  // In the column beside.
-          verdicts.push_back(leg);
-        }
-        Verdicts expected = verdicts;
+        scene.add_column(5.05, 0.25, 0.35, 6, leg);  // Beside it.
+        Verdicts expected = scene.scan.verdict;
         // The mean stays where it was, within 1 mm. What scans saw through stays dynamic, whatever
         // stands above it.
         if (leg == Verdict::kDynamic) expected[3] = Verdict::kDynamic;
-        decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
-        CHECK(verdicts == expected);
+        CHECK(scene.with_low_points() == expected);
       }
     }
   }
@@ -525,8 +507,7 @@ TEST_CASE("what was no ground when it was seen follows what moves above it") {
     scene.add({5.05, 0.05, 0.01}, Verdict::kStatic);
     scene.scan.voxel.back() = EvidenceMap::kNone;  // Nor has it a voxel of the ground.
     scene.add_column(5.05, 0.05, 0.35, 6, Verdict::kDynamic);
-    Verdicts verdicts = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, verdicts);
+    const Verdicts verdicts = scene.with_low_points();
     CHECK(verdicts[0] == (ground_evidence ? Verdict::kDynamic : Verdict::kStatic));
   }
 }
@@ -632,8 +613,7 @@ TEST_CASE("low points are those of a count over all columns") {
                                            : Verdict::kStatic);
       is_ground ? scene.add_ground(at, before.back()) : scene.add(at, before.back());
     }
-    Verdicts decided = before;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
+    const Verdicts decided = scene.with_low_points();
     const std::vector<int> expected = slow_low_points(
         scene.scan, before, static_cast<float>(scene.parameters.object_height), scene.maps.steps);
     for (std::size_t k = 0; k < decided.size(); ++k) {
@@ -656,9 +636,7 @@ TEST_CASE("low points follow whatever they reach, whichever of it comes first") 
     scene.maps.steps.elevation = 0.0349F;
     scene.add(low, Verdict::kStatic);
     for (const Eigen::Vector3d& at : above) scene.add(at, Verdict::kDynamic);
-    Verdicts decided = scene.scan.verdict;
-    decide_low_points(scene.scan, scene.maps, scene.parameters, RunContext{}, decided);
-    CHECK(decided[0] == Verdict::kDynamic);
+    CHECK(scene.with_low_points()[0] == Verdict::kDynamic);
   }
 }
 
@@ -697,8 +675,7 @@ TEST_CASE("what is wider than track_width is not followed") {
   for (int n = 0; n < 11; ++n) scene.add_column(5.05, 0.2 * n + 0.05, 0.4, 4, Verdict::kDynamic);
   for (const double width : {1.9, 2.1}) {
     scene.parameters.track_width = width;
-    const auto objects =
-        summarise_objects(scene.segmented(), scene.map, {}, scene.parameters, RunContext{});
+    const auto objects = scene.objects();
     CHECK(objects.size() == (width > 2.0 ? 1 : 0));
   }
 }

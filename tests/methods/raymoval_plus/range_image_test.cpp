@@ -36,6 +36,15 @@ SensorModel sensor_with_beams() {
   return sensor;
 }
 
+/// The same sensor with beams up to so many degrees up and down.
+SensorModel sensor_within(double degrees, double step = 0.5) {
+  SensorModel sensor = Scanner{}.model();
+  sensor.elevation_min = -degrees * kDegree;
+  sensor.elevation_max = degrees * kDegree;
+  sensor.elevation_step = step * kDegree;
+  return sensor;
+}
+
 /// Every instruction set with every rule of what is seen through.
 std::vector<std::pair<InstructionSet, SeenThrough>> sets_and_rules() {
   std::vector<std::pair<InstructionSet, SeenThrough>> all;
@@ -44,11 +53,6 @@ std::vector<std::pair<InstructionSet, SeenThrough>> sets_and_rules() {
     all.emplace_back(set, SeenThrough::kAtOrBelow);
   }
   return all;
-}
-
-Eigen::Vector3d direction(double azimuth, double elevation) {
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-          std::sin(elevation)};
 }
 
 /// Places around the middle of a bin of `image_of`: bins are half a degree times 1.45 wide and a
@@ -93,11 +97,8 @@ TEST_CASE("steps that no sensor has cost no more memory than the finest sensor")
 
 TEST_CASE("rows are half a beam high, wherever the field of view ends") {
   // 16 beams 2 degrees apart are 30 rows of 1 degree, and 4 more at either end.
-  SensorModel sensor = Scanner{}.model();
+  SensorModel sensor = sensor_within(15.0, 2.0);
   sensor.azimuth_step = 0.2 * kDegree;
-  sensor.elevation_step = 2.0 * kDegree;
-  sensor.elevation_min = -15.0 * kDegree;
-  sensor.elevation_max = 15.0 * kDegree;
   CHECK(image_of({}, sensor).size() == 38 * 1241);
   sensor.elevation_max += 0.3 * kDegree;
   CHECK(image_of({}, sensor).size() == 39 * 1241);
@@ -175,9 +176,7 @@ TEST_CASE("a scan sees through a place beside what is nearer, in its own column 
 }
 
 TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
-  SensorModel sensor = Scanner{}.model();
-  sensor.elevation_min = -15.0 * kDegree;
-  sensor.elevation_max = 15.0 * kDegree;
+  const SensorModel sensor = sensor_within(15.0);
   const AroundBin bin{5.125 * kDegree};
   const auto told = [&](double row, const Pose& T_world_sensor) {
     return image_of({bin.at(10.0, 1.0, 0.0), bin.at(30.0, 0.0, 0.0), bin.at(15.0, 0.0, row)},
@@ -196,9 +195,7 @@ TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
 TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
   // The returns of a slope two rows apart are 18, 22.5 and 30 m away: 1/range falls by 1/90 from
   // each to the next one, by 1/180 in a row. 20.5 m are 0.8 rows before 22.5 m, and 19 m are 1.5.
-  SensorModel sensor = Scanner{}.model();
-  sensor.elevation_min = -15.0 * kDegree;
-  sensor.elevation_max = 15.0 * kDegree;
+  const SensorModel sensor = sensor_within(15.0);
   const AroundBin bin{5.125 * kDegree};
   const auto told = [&](double range, const std::vector<Eigen::Vector3f>& points) {
     return image_of(points, sensor).observe(bin.at(range, 0.0, 0.0));
@@ -220,10 +217,7 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
   // Beams 2 degrees apart, in the middles of rows of 1 degree, look down on a road 1.7 m below:
   // those at 5 and 3 degrees meet it 19.5 and 32.5 m away. What the upper one meets 26 m away is
   // 0.34 m above the road, and the lower one is in its window.
-  SensorModel sensor = Scanner{}.model();
-  sensor.elevation_min = -15.5 * kDegree;
-  sensor.elevation_max = 15.5 * kDegree;
-  sensor.elevation_step = 2.0 * kDegree;
+  const SensorModel sensor = sensor_within(15.5, 2.0);
   const auto at = [](double range, double elevation) -> Eigen::Vector3f {
     return (range * direction(0.0, elevation * kDegree)).cast<float>();
   };
@@ -263,10 +257,7 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
 TEST_CASE("a place above the highest beam is not seen through") {
   // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
   // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
-  SensorModel sensor = Scanner{}.model();
-  sensor.elevation_min = -15.0 * kDegree;
-  sensor.elevation_max = 15.0 * kDegree;
-  sensor.elevation_step = 2.0 * kDegree;
+  const SensorModel sensor = sensor_within(15.0, 2.0);
   const auto ceiling = [](double elevation) -> Eigen::Vector3f {
     return (3.0 / std::sin(elevation * kDegree) * direction(0.0, elevation * kDegree))
         .cast<float>();

@@ -19,6 +19,15 @@ ScanCells cells_of(const Terrain& terrain, const std::vector<Eigen::Vector3d>& p
   return cells;
 }
 
+Terrain terrain_of(const std::vector<Eigen::Vector3d>& points, double far_slope = 0.1) {
+  Parameters parameters;
+  parameters.terrain_far_slope = far_slope;
+  Terrain terrain{parameters};
+  terrain.add(cells_of(terrain, points), RunContext{});
+  terrain.update(RunContext{});
+  return terrain;
+}
+
 std::vector<float> heights_of(const Terrain& terrain, const std::vector<Eigen::Vector3d>& points,
                               int threads = 1) {
   std::vector<float> heights;
@@ -33,8 +42,7 @@ float height_of(const Terrain& terrain, const Eigen::Vector3d& point) {
 }  // namespace
 
 TEST_CASE("ground is the low quantile, without pits and walls") {
-  Terrain terrain{Parameters{}};
-  CHECK(std::isinf(height_of(terrain, {0.1, 0.1, -1.7})));
+  CHECK(std::isinf(height_of(Terrain{Parameters{}}, {0.1, 0.1, -1.7})));
   std::vector<Eigen::Vector3d> points;
   for (int x = -20; x <= 20; ++x) {
     for (int y = -20; y <= 20; ++y) {
@@ -44,8 +52,7 @@ TEST_CASE("ground is the low quantile, without pits and walls") {
       }
     }
   }
-  terrain.add(cells_of(terrain, points), RunContext{});
-  terrain.update(RunContext{});
+  const Terrain terrain = terrain_of(points);
   CHECK(height_of(terrain, {0.1, 0.1, -1.7}) == Approx(0.0).margin(0.05));
   CHECK(height_of(terrain, {2.2, 2.2, 0.3}) == Approx(2.0).margin(0.3));  // in the pit
   CHECK(std::isinf(height_of(terrain, {100.0, 0.0, 0.0})));
@@ -54,17 +61,13 @@ TEST_CASE("ground is the low quantile, without pits and walls") {
 TEST_CASE("under a roof the ground rises no more than the slope allows") {
   // Columns are 0.4 m. Ground at 0 m up to x = 4 m; from there on all returns come from a roof at 2
   // m.
-  Parameters parameters;
-  parameters.terrain_far_slope = 0.0;  // Only what is near has a say.
-  Terrain terrain{parameters};
   std::vector<Eigen::Vector3d> points;
   for (int x = 0; x < 20; ++x) {
     for (int y = -10; y < 10; ++y) {
       for (int k = 0; k < 3; ++k) points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0 : 2);
     }
   }
-  terrain.add(cells_of(terrain, points), RunContext{});
-  terrain.update(RunContext{});
+  const Terrain terrain = terrain_of(points, 0.0);  // Only what is near has a say.
   CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
   // 0.4 m and 1.2 m beyond the last column of ground it may rise by 0.08 m and 0.24 m; farther away
   // that column says nothing.
@@ -85,11 +88,7 @@ TEST_CASE("what stands between rings of ground is no ground") {
     }
   }
   for (const double far_slope : {0.1, 0.0}) {
-    Parameters parameters;
-    parameters.terrain_far_slope = far_slope;
-    Terrain terrain{parameters};
-    terrain.add(cells_of(terrain, points), RunContext{});
-    terrain.update(RunContext{});
+    const Terrain terrain = terrain_of(points, far_slope);
     CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
     // Eleven columns from the last one of ground, of 0.04 m each.
     const double expected = far_slope > 0.0 ? 0.8 - 0.44 : 0.0;
@@ -105,9 +104,6 @@ TEST_CASE(
   for (const double far_slope : {0.1, 0.0}) {
     for (const auto& [slope_x, slope_y] :
          {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(-0.3, 0.4), std::pair(0.0, -0.6)}) {
-      Parameters parameters;
-      parameters.terrain_far_slope = far_slope;
-      Terrain terrain{parameters};
       // A hundred points in each column.
       std::vector<Eigen::Vector3d> points, road, box;
       for (int n = -400; n < 400; ++n) {
@@ -119,11 +115,10 @@ TEST_CASE(
           if (away > 1.5 && away < 6.0) road.push_back(points.back());
         }
       }
-      terrain.add(cells_of(terrain, points), RunContext{});
-      terrain.update(RunContext{});
+      const Terrain terrain = terrain_of(points, far_slope);
       const std::vector<float> of_road = heights_of(terrain, road);
       // A tenth counts as level: within a column it is 2.8 cm to either side at most.
-      CHECK(*std::max_element(of_road.begin(), of_road.end()) < parameters.ground_height);
+      CHECK(*std::max_element(of_road.begin(), of_road.end()) < Parameters{}.ground_height);
       CHECK(*std::min_element(of_road.begin(), of_road.end()) > -0.05F);
       // The ground below the box rises by 0.2 a metre from its edge.
       const std::vector<float> of_box = heights_of(terrain, box);

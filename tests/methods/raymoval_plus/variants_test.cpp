@@ -117,8 +117,7 @@ TEST_CASE("one pass removes nearly what four do", "[slow]") {
 
 TEST_CASE("raymoval_plus depends on the lattice of its voxels within bounds", "[slow]") {
   const World world = street(10);
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < world.size(); ++i) points += world.load(i).size();
+  const std::size_t points = toy::point_count(world);
   const auto changed =
       verdicts_changed_by(whole_motion(0.07, 0.11, 0.05, 0), variant("offline"), world);
   CHECK(static_cast<double>(changed) < 0.02 * static_cast<double>(points));

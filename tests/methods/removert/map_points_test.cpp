@@ -76,30 +76,18 @@ TEST_CASE("removert: centroids are those of a plain table of cells") {
   }
 }
 
-TEST_CASE("removert: what is taken out of a map and put back gives the same map") {
-  const CellLattice lattice(0.05);
-  MapPoints map = map_of(lattice, {random_points(3000, 4)});
-  const auto before = positions(map);
-  const std::vector<std::uint32_t> id_before = map.id;
-  std::vector<std::uint8_t> taken(map.size());
-  for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = i % 3 == 0 || i < 200 ? 1 : 0;
-  const MapPoints out = take_points(map, taken);
-  CHECK(out.size() + map.size() == before.size());
-  const MapPoints again = united(map, out);
-  CHECK(again.blocks.size() >= map.blocks.size());
-  // Blocks come back in order; within one the two parts follow each other.
-  const auto sorted = [](const MapPoints& points) {
-    std::map<std::pair<VoxelKey, std::uint32_t>, Eigen::Vector3d> all;
-    for (const Block& block : points.blocks) {
-      for (std::size_t i = block.begin; i < block.end; ++i) {
-        all[{block.key, points.id[i]}] = points.position(block, i);
-      }
+TEST_CASE("removert: marked points are those of the map, in its order") {
+  const MapPoints map = map_of(CellLattice(0.05), {random_points(3000, 4)});
+  Mask marks(map.size());
+  for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = i % 3 == 0 || i < 200 ? 1 : 0;
+  const auto all = positions(map);
+  for (const std::uint8_t mark : {0, 1}) {
+    std::vector<Eigen::Vector3d> expected;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (marks[i] == mark) expected.push_back(all[i]);
     }
-    return all;
-  };
-  const MapPoints whole = map_of(lattice, {random_points(3000, 4)});
-  CHECK(sorted(again) == sorted(whole));
-  CHECK(again.size() == id_before.size());
+    CHECK(positions(marked_points(map, marks, mark)) == expected);
+  }
 }
 
 TEST_CASE("removert: balls hold their points") {

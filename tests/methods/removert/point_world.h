@@ -8,7 +8,7 @@
 
 #include "core/text.h"
 #include "methods/registry.h"
-#include "methods/removert/parameters.h"
+#include "methods/removert/removert.h"
 #include "tests/methods/toy_world.h"
 
 namespace raymoval::removert_test {
@@ -27,10 +27,7 @@ class PointWorld : public HeldScans {
 
 /// Point at a range (metres), an elevation and an azimuth (degrees).
 inline Eigen::Vector3f polar(double range, double elevation, double azimuth = 0.0) {
-  const double e = elevation * kDegree, a = azimuth * kDegree;
-  return (range *
-          Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)))
-      .cast<float>();
+  return (range * direction(azimuth * kDegree, elevation * kDegree)).cast<float>();
 }
 
 /// Straight ahead or to the left, but for a tenth of a degree that keeps off the pixels' borders.
