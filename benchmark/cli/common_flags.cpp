@@ -14,10 +14,7 @@
 namespace raymoval {
 
 int parse_threads(const std::string& text) {
-  if (text.empty()) return 0;
-  const auto value = parse_number<int>(text);
-  if (value && *value >= 1 && *value <= 4096) return *value;
-  throw UsageError("--threads " + text + ": expected a whole number from 1 to 4096.");
+  return text.empty() ? 0 : parse_whole("--threads", text, 1, 4096);
 }
 
 ProgressStyle progress_style(bool quiet) {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "benchmark/process/checked_sink.h"
-#include "benchmark/result/cell_json.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/suite/suite_json.h"
 #include "core/error.h"
 #include "core/files/descriptor_io.h"
@@ -166,7 +166,7 @@ MethodAnswer read_answer(int file) {
   if (!status) throw MethodError("the answer is damaged");
   answer.status = *status;
   answer.reason = head.reason;
-  answer.measured = measurement_from(head.measured, "the answer");
+  answer.measured = read_as<Measurement>(head.measured, "the answer");
   if (!head.loaded.empty()) answer.loaded = head.loaded.front();
   answer.masks = MaskStore(head.points.size());
   for (std::size_t i = 0; i < head.points.size(); ++i) {

@@ -17,10 +17,6 @@ TableCell mean_over_sequences(const RunResults& results, const std::string& cell
                    results.sequences.size());
 }
 
-TableCell optional_cell(const std::optional<double>& value, int decimals) {
-  return value ? number_cell(*value, decimals) : TableCell{"n/a"};
-}
-
 std::string fact(const std::string& name, const std::string& value, const std::string& more,
                  const char* look = "") {
   return "<div><dt>" + html_text(name) + "</dt><dd class=\"" + look + "\">" + html_name(value) +
@@ -39,12 +35,12 @@ std::pair<std::string, std::string> best_method(const RunResults& results) {
   const std::string rate = results.headline_of(protocol);
   if (rate.empty()) return best;
   std::optional<double> highest;
-  for (const std::string& cell : results.cells) {
-    if (results.is_control(cell)) continue;
-    const TableCell mean = mean_over_sequences(results, cell, protocol, rate);
+  for (const std::string& method : results.methods) {
+    if (results.is_control(method)) continue;
+    const TableCell mean = mean_over_sequences(results, method, protocol, rate);
     if (!mean.value || (highest && !rate_spec(rate).is_better(*mean.value, *highest))) continue;
     highest = mean.value;
-    best = {cell, "mean " + rate + " " + mean.text + " by " + protocol};
+    best = {method, "mean " + rate + " " + mean.text + " by " + protocol};
   }
   return best;
 }
@@ -56,17 +52,16 @@ std::string facts_html(const ReportContent& content) {
   std::string html = "<dl class=\"facts\">\n";
   const auto [best, why] = best_method(results);
   if (!best.empty()) html += fact("Most accurate", best, why);
-  html += fact("Methods", std::to_string(results.cells.size()), "controls included");
+  html += fact("Methods", std::to_string(results.methods.size()), "controls included");
   std::size_t scans = 0;
   for (const SequenceRecord& sequence : content.record->run.sequences) {
     scans += sequence.data.scans;
   }
   html +=
       fact("Sequences", std::to_string(results.sequences.size()), grouped_text(scans) + " scans");
-  const std::size_t cells = content.record->cells.size();
-  html += fact("Cells", std::to_string(cells),
+  html += fact("Cells", std::to_string(results.cells.size()),
                results.missing.empty() ? "" : std::to_string(results.missing.size()) + " not run");
-  const std::size_t failed = results.failures.size();
+  const auto failed = std::ranges::count_if(results.cells, [](auto& cell) { return !cell.ok(); });
   html += fact("Failed cells", std::to_string(failed), failed == 0 ? "" : "see below",
                failed == 0 ? "good" : "bad");
   const bool checked = content.record->controls_checked;
@@ -84,7 +79,7 @@ std::string facts_html(const ReportContent& content) {
 
 std::string methods_html(const ReportContent& content) {
   const RunResults& results = *content.results;
-  TextTable table{"Each method over all sequences", "method", {}, {}, {}};
+  TextTable table{"Each method over all sequences", "method"};
   std::vector<std::string> shown;
   for (const std::string& protocol : results.protocols) {
     const std::vector<std::string> rates = results.rates_of(protocol);
@@ -93,19 +88,18 @@ std::string methods_html(const ReportContent& content) {
     shown.insert(shown.end(), rates.begin(), rates.end());
   }
   table.groups.push_back({"cost", {kTimeHeading, "peak MiB"}});
-  for (const std::string& cell : results.cells) {
-    TableRow row{cell, {}, results.is_control(cell)};
+  for (const std::string& method : results.methods) {
+    TableRow row{method, {}, results.is_control(method)};
     for (const std::string& protocol : results.protocols) {
       for (const std::string& rate : results.rates_of(protocol)) {
-        row.cells.push_back(mean_over_sequences(results, cell, protocol, rate));
+        row.cells.push_back(mean_over_sequences(results, method, protocol, rate));
       }
     }
-    row.cells.push_back(optional_cell(results.ms_per_scan(cell), 1));
-    row.cells.push_back(optional_cell(results.peak_mib(cell), 0));
+    for (TableCell& cell : cost_cells(results, method, "n/a")) row.cells.push_back(cell);
     table.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i < shown.size() + 2; ++i) {
-    mark_best(column_cells(table, i), i < shown.size() && rate_spec(shown[i]).higher_is_better);
+    mark_best(table, i, i < shown.size() && rate_spec(shown[i]).higher_is_better);
   }
   table.notes.push_back(
       rate_units_text(shown) +
@@ -141,31 +135,35 @@ std::string accuracy_html(const ReportContent& content) {
   return html;
 }
 
+std::string losses_html(const ReportContent& content) {
+  std::string html;
+  for (const TextTable& table : loss_tables(*content.results)) html += html_heat_table(table);
+  return html;
+}
+
 std::string cells_html(const ReportContent& content) {
   const RunResults& results = *content.results;
-  TextTable table{"Every cell", "sequence", {{"", {"method", "status"}}}, {}, {}};
+  TextTable table{"Every cell", "sequence", {{"", {"method", "status"}}}};
   for (const std::string& protocol : results.protocols) {
     const std::vector<std::string> rates = results.rates_of(protocol);
     if (!rates.empty()) table.groups.push_back({protocol, rates});
   }
   table.groups.push_back({"cost", {kTimeHeading, "peak MiB"}});
   for (const std::string& sequence : results.sequences) {
-    for (const std::string& cell : results.cells) {
-      TableRow row{sequence, {{cell}, {"not run"}}, false};
-      const ResultRow* any = nullptr;
+    for (const std::string& method : results.methods) {
+      const Cell* cell = results.find(sequence, method);
+      TableRow row{sequence, {{method}, {cell == nullptr ? "not run" : status_name(cell->status)}}};
       for (const std::string& protocol : results.protocols) {
-        const ResultRow* scored = results.find(sequence, cell, protocol);
-        if (scored != nullptr) any = scored;
         for (const std::string& rate : results.rates_of(protocol)) {
-          const auto value = scored == nullptr ? std::nullopt : scored->rate(rate);
+          const auto value = results.rate(sequence, method, protocol, rate);
           row.cells.push_back(value ? rate_cell({}, rate, *value) : TableCell{"n/a"});
         }
       }
-      if (any != nullptr) row.cells[1].text = any->status;
-      const bool timed = any != nullptr && any->seconds_per_scan;
-      row.cells.push_back(timed ? number_cell(1000.0 * *any->seconds_per_scan, 1)
-                                : TableCell{"n/a"});
-      row.cells.push_back(optional_cell(any == nullptr ? std::nullopt : any->peak_memory_mib, 0));
+      const Measurement* measured = cell != nullptr && cell->measured ? &*cell->measured : nullptr;
+      row.cells.push_back(measured != nullptr ? number_cell(1000.0 * measured->mean_seconds, 1)
+                                              : TableCell{"n/a"});
+      row.cells.push_back(
+          number_or(measured != nullptr ? measured->peak_memory_mib : std::nullopt, 0, "n/a"));
       table.rows.push_back(std::move(row));
     }
   }

@@ -166,11 +166,10 @@ std::string listed(const std::vector<std::string>& names, const std::string& nou
 /// without a suite file all have one name, which says nothing.
 std::string title_of(const RunResults& results) {
   std::vector<std::string> methods;
-  for (const std::string& cell : results.cells) {
-    const SweptCell* point = results.swept(cell);
-    const std::string name = point == nullptr ? cell : "a sweep of " + point->sweep();
-    const bool known = std::find(methods.begin(), methods.end(), name) != methods.end();
-    if (!known && !results.is_control(cell)) methods.push_back(name);
+  for (const std::string& method : results.methods) {
+    const SweptCell* point = results.swept(method);
+    if (results.is_control(method)) continue;
+    add_once(methods, point == nullptr ? method : "a sweep of " + point->sweep());
   }
   const std::string name = results.name == Suite().name ? "" : results.name + ": ";
   return name + (methods.empty() ? "the controls" : listed(methods, "methods")) + " on " +

@@ -26,11 +26,8 @@ const ParameterSpec* spec_of(const MethodRegistry& methods, const std::string& m
 }
 
 TextTable parameter_table(const SuiteMethodRecord& method, const MethodRegistry& methods) {
-  TextTable table{"Parameters of " + method.name,
-                  "parameter",
-                  {{"", {"value", "default", "unit", "meaning"}}},
-                  {},
-                  {}};
+  TextTable table{
+      "Parameters of " + method.name, "parameter", {{"", {"value", "default", "unit", "meaning"}}}};
   const std::string without_variant = method.method.substr(0, method.method.find(':'));
   for (const auto& [key, value] : method.parameters) {
     const ParameterSpec* spec = spec_of(methods, without_variant, key);
@@ -74,13 +71,10 @@ std::string fingerprint_text(const ResultsRecord& results, const std::string& se
 }
 
 std::string sequences_part(const ResultsRecord& results) {
-  TextTable table{"Sequences",
-                  "sequence",
-                  {{"",
-                    {"layout", "frames", "scans", "poses", "sensor", "range", "label rule",
-                     "origin", "fingerprint"}}},
-                  {},
-                  {}};
+  const std::vector<std::string> columns = {"layout",     "frames", "scans",
+                                            "poses",      "sensor", "range",
+                                            "label rule", "origin", "fingerprint"};
+  TextTable table{"Sequences", "sequence", {{"", columns}}};
   for (const SequenceRecord& sequence : results.run.sequences) {
     const DataRecord& data = sequence.data;
     TableRow row{data.name, {}, false};
@@ -96,7 +90,7 @@ std::string sequences_part(const ResultsRecord& results) {
 }
 
 std::string protocols_part(const RunRecord& run) {
-  TextTable table{"Protocols", "protocol", {{"", {"kind", "options"}}}, {}, {}};
+  TextTable table{"Protocols", "protocol", {{"", {"kind", "options"}}}};
   for (const ProtocolRecord& protocol : run.protocols) {
     std::vector<std::string> options;
     for (const auto& [key, value] : protocol.options) {
@@ -108,7 +102,7 @@ std::string protocols_part(const RunRecord& run) {
 }
 
 std::string machine_part(const RunRecord& run) {
-  TextTable table{"Program and machine", "what", {{"", {"value"}}}, {}, {}};
+  TextTable table{"Program and machine", "what", {{"", {"value"}}}};
   const auto add = [&](const char* name, const std::string& value) {
     table.rows.push_back({name, {{value}}, false});
   };
@@ -130,7 +124,7 @@ std::string machine_part(const RunRecord& run) {
 }
 
 TextTable key_table(const ResultsRecord& results) {
-  TextTable table{"Keys of the cells", "sequence", {{"", {"method", "key"}}}, {}, {}};
+  TextTable table{"Keys of the cells", "sequence", {{"", {"method", "key"}}}};
   for (const Cell& cell : results.cells) {
     const std::string key = cell.key.empty() ? "none" : cell.key;
     table.rows.push_back({cell.sequence, {{cell.name}, {key}}, false});

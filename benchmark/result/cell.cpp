@@ -27,11 +27,22 @@ std::optional<CellStatus> status_called(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<double> Score::rate(const std::string& name) const {
+std::optional<double> rate_of(const std::vector<Rate>& rates, const std::string& name) {
   for (const Rate& rate : rates) {
     if (rate.name == name) return rate.value;
   }
   return std::nullopt;
+}
+
+std::optional<double> Score::rate(const std::string& name) const {
+  return rate_of(rates, name);
+}
+
+const Score* Cell::score(const std::string& protocol) const {
+  for (const Score& score : scores) {
+    if (score.protocol.name == protocol) return &score;
+  }
+  return nullptr;
 }
 
 void Cell::fail(CellStatus why, const std::string& text) {

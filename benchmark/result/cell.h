@@ -53,9 +53,12 @@ struct Score {
   std::optional<Intervals> intervals = std::nullopt;
   CountsByScan by_scan = {};
 
-  /// The value of a rate; no value if it is undefined or not part of this protocol.
+  /// As `rate_of`.
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
+
+/// The value of a rate; no value if it is undefined or not among `rates`.
+std::optional<double> rate_of(const std::vector<Rate>& rates, const std::string& name);
 
 /// Shares of points by class, range and height.
 struct ColumnRecord {
@@ -117,6 +120,8 @@ struct Cell {
   void fail(CellStatus why, const std::string& text);
   /// "town / raymoval:online", for messages.
   [[nodiscard]] std::string title() const { return sequence + " / " + name; }
+  /// The score by what the suite calls `protocol`; null if there is none.
+  [[nodiscard]] const Score* score(const std::string& protocol) const;
 };
 
 /// All that the counts of a cell depend on.

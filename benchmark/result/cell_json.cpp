@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "benchmark/result/cell_fields.h"
+#include "benchmark/result/result_fields.h"
 #include "core/files/files.h"
 
 namespace raymoval {
@@ -111,20 +111,12 @@ void describe(RecordReader& reader, Reliability& reliability) {
   std::copy(bins.begin(), bins.end(), reliability.bins.begin());
 }
 
-ordered_json to_json(const Cell& cell) {
-  return written(cell);
-}
-
-Cell cell_from(const ordered_json& json, const std::string& file) {
-  return read_as<Cell>(json, file);
-}
-
 Cell read_cell(const std::filesystem::path& file) {
-  return read_sealed_with(file, cell_from);
+  return read_sealed_with(file, read_as<Cell>);
 }
 
 void write_cell(const std::filesystem::path& file, const Cell& cell) {
-  write_sealed(file, written(cell));
+  write_sealed(file, to_json(cell));
 }
 
 RepeatRecord read_repeat(const std::filesystem::path& file) {
@@ -132,39 +124,11 @@ RepeatRecord read_repeat(const std::filesystem::path& file) {
 }
 
 void write_repeat(const std::filesystem::path& file, const RepeatRecord& repeat) {
-  write_sealed(file, written(repeat));
+  write_sealed(file, to_json(repeat));
 }
 
 std::string cell_key(const CellIdentity& identity) {
-  return content_hash(json_text(written(identity)));
-}
-
-ordered_json to_json(const DataRecord& data) {
-  return written(data);
-}
-
-ordered_json to_json(const MethodRecord& method) {
-  return written(method);
-}
-
-ordered_json to_json(const ProtocolRecord& protocol) {
-  return written(protocol);
-}
-
-ordered_json to_json(const ProtocolResult& result) {
-  return written(result);
-}
-
-ordered_json to_json(const ColumnRecord& columns) {
-  return written(columns);
-}
-
-ordered_json to_json(const Measurement& measured) {
-  return written(measured);
-}
-
-Measurement measurement_from(const ordered_json& json, const std::string& place) {
-  return read_as<Measurement>(json, place);
+  return content_hash(json_text(to_json(identity)));
 }
 
 std::string value_text(const ParameterValue& value) {

@@ -211,8 +211,8 @@ class RecordReader {
   std::string place_;
 };
 
-template <class Record>
-nlohmann::ordered_json written(const Record& record) {
+template <Described Record>
+nlohmann::ordered_json to_json(const Record& record) {
   RecordWriter writer;
   describe(writer, record);
   return std::move(writer.json);

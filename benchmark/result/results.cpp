@@ -12,39 +12,6 @@
 namespace raymoval {
 namespace {
 
-ResultRow row_head(const Cell& cell) {
-  ResultRow row;
-  row.sequence = cell.sequence;
-  row.cell = cell.name;
-  row.method = cell.method.name;
-  row.variant = cell.method.variant;
-  row.control = cell.method.control;
-  row.status = status_name(cell.status);
-  if (cell.masks) row.mask_digest = cell.masks->digest;
-  if (cell.measured) {
-    row.seconds_per_scan = cell.measured->mean_seconds;
-    row.peak_memory_mib = cell.measured->peak_memory_mib;
-  }
-  return row;
-}
-
-/// One row for each protocol of the suite, also where the cell failed.
-void add_rows(const Cell& cell, RunResults& results) {
-  for (const std::string& protocol : results.protocols) {
-    ResultRow row = row_head(cell);
-    row.protocol = protocol;
-    for (const Score& score : cell.scores) {
-      if (score.protocol.name != protocol) continue;
-      for (const Rate& rate : score.rates) row.rates[rate.name] = rate.value;
-      if (!score.intervals) continue;
-      for (const Interval& interval : score.intervals->rates) {
-        if (interval.low) row.intervals[interval.name] = {*interval.low, *interval.high};
-      }
-    }
-    results.rows.push_back(std::move(row));
-  }
-}
-
 /// The item of a list that is about a cell; it is added if there is none.
 template <class Item>
 Item& item_of(std::vector<Item>& list, const std::string& cell) {
@@ -103,13 +70,6 @@ void add_times(const Cell& cell, RunResults& results) {
   }
 }
 
-/// The last line of `text` that holds anything, without what would steer a terminal.
-std::string last_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  text.erase(0, text.rfind('\n') + 1);
-  return printable_text(text);
-}
-
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -122,71 +82,76 @@ std::string csv_text(const std::string& text) {
 
 }  // namespace
 
-std::optional<double> ResultRow::rate(const std::string& name) const {
-  const auto found = rates.find(name);
-  return status != "ok" || found == rates.end() ? std::nullopt : found->second;
-}
-
 const std::string& RunResults::kind_of(const std::string& protocol) const {
   const auto found = protocol_kinds.find(protocol);
   return found == protocol_kinds.end() ? protocol : found->second;
 }
 
-SegmentValues RunResults::values(const std::string& cell, const std::string& protocol,
+const Cell* RunResults::find(const std::string& sequence, const std::string& method) const {
+  for (const Cell& cell : cells) {
+    if (cell.sequence == sequence && cell.name == method) return &cell;
+  }
+  return nullptr;
+}
+
+std::optional<double> RunResults::rate(const std::string& sequence, const std::string& method,
+                                       const std::string& protocol, const std::string& rate) const {
+  const Cell* cell = find(sequence, method);
+  const Score* score = cell == nullptr ? nullptr : cell->score(protocol);
+  return score == nullptr ? std::nullopt : score->rate(rate);
+}
+
+SegmentValues RunResults::values(const std::string& method, const std::string& protocol,
                                  const std::string& rate) const {
   SegmentValues list;
   for (const std::string& sequence : sequences) {
-    const ResultRow* row = find(sequence, cell, protocol);
-    list.push_back(row == nullptr ? std::nullopt : row->rate(rate));
+    list.push_back(this->rate(sequence, method, protocol, rate));
   }
   return list;
 }
 
-const ResultRow* RunResults::find(const std::string& sequence, const std::string& cell,
-                                  const std::string& protocol) const {
-  for (const ResultRow& row : rows) {
-    if (row.sequence == sequence && row.cell == cell && row.protocol == protocol) return &row;
-  }
-  return nullptr;
-}
-
-const SweptCell* RunResults::swept(const std::string& cell) const {
+const SweptCell* RunResults::swept(const std::string& method) const {
   for (const SweptCell& point : sweeps) {
-    if (point.cell == cell) return &point;
+    if (point.cell == method) return &point;
   }
   return nullptr;
 }
 
-bool RunResults::is_control(const std::string& cell) const {
-  return std::any_of(rows.begin(), rows.end(),
-                     [&](const ResultRow& row) { return row.cell == cell && row.control; });
+bool RunResults::is_control(const std::string& method) const {
+  return std::ranges::any_of(
+      cells, [&](const Cell& cell) { return cell.name == method && cell.method.control; });
 }
 
-std::optional<double> RunResults::ms_per_scan(const std::string& cell) const {
+std::optional<double> RunResults::ms_per_scan(const std::string& method) const {
   for (const MethodTimes& known : times) {
-    if (known.cell != cell || known.scans == 0) continue;
+    if (known.cell != method || known.scans == 0) continue;
     return 1000.0 * known.seconds / static_cast<double>(known.scans);
   }
   return std::nullopt;
 }
 
-std::optional<double> RunResults::peak_mib(const std::string& cell) const {
+std::optional<double> RunResults::peak_mib(const std::string& method) const {
   std::optional<double> most;
-  for (const ResultRow& row : rows) {
-    if (row.cell != cell || !row.peak_memory_mib) continue;
-    most = std::max(most.value_or(0.0), *row.peak_memory_mib);
+  for (const Cell& cell : cells) {
+    if (cell.name != method || !cell.measured || !cell.measured->peak_memory_mib) continue;
+    most = std::max(most.value_or(0.0), *cell.measured->peak_memory_mib);
   }
   return most;
+}
+
+bool RunResults::gives(const std::string& protocol, const std::string& rate) const {
+  return std::ranges::any_of(cells, [&](const Cell& cell) {
+    const Score* score = cell.score(protocol);
+    return score != nullptr &&
+           std::ranges::any_of(score->rates, [&](const Rate& given) { return given.name == rate; });
+  });
 }
 
 std::vector<std::string> RunResults::rates_of(const std::string& protocol) const {
   std::vector<std::string> rates;
   for (const RateSpec& spec : rate_specs()) {
     if (spec.role == RateRole::kSecondary) continue;
-    const bool there = std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
-      return row.protocol == protocol && row.rates.contains(spec.name);
-    });
-    if (there) rates.push_back(spec.name);
+    if (gives(protocol, spec.name)) rates.push_back(spec.name);
   }
   return rates;
 }
@@ -217,11 +182,11 @@ Share MethodColumns::find(const std::string& name) const {
   return {};
 }
 
-RunResults shown_results(const ResultsRecord& results) {
+RunResults shown_results(ResultsRecord results) {
   RunResults shown;
   shown.name = results.run.suite;
   shown.sequences = names_of(results.run.sequences);
-  shown.cells = names_of(results.run.methods);
+  shown.methods = names_of(results.run.methods);
   shown.protocols = names_of(results.run.protocols);
   for (const ProtocolRecord& protocol : results.run.protocols) {
     shown.protocol_kinds[protocol.name] = protocol.protocol;
@@ -235,18 +200,27 @@ RunResults shown_results(const ResultsRecord& results) {
     }
     shown.sweeps.push_back(std::move(swept));
   }
-  for (const Cell& cell : results.cells) {
-    add_rows(cell, shown);
+  for (Cell& cell : results.cells) {
     add_columns(cell, shown);
     add_reliability(cell, shown);
     add_times(cell, shown);
-    if (cell.ok()) continue;
-    shown.failures.push_back({cell.sequence, cell.name, status_name(cell.status), cell.reason,
-                              last_line(cell.output_tail)});
+    for (Score& score : cell.scores) score.by_scan.clear();
   }
-  shown.missing = results.missing;
-  shown.control_problems = results.control_problems;
+  shown.cells = std::move(results.cells);
+  shown.missing = std::move(results.missing);
+  shown.control_problems = std::move(results.control_problems);
   return shown;
+}
+
+std::vector<Sweep> sweeps_of(const RunResults& results) {
+  std::vector<Sweep> sweeps;
+  for (const SweptCell& point : results.sweeps) {
+    const std::string name = point.sweep();
+    auto sweep = std::ranges::find(sweeps, name, &Sweep::name);
+    if (sweep == sweeps.end()) sweep = sweeps.insert(sweep, {name, {}});
+    sweep->points.push_back(&point);
+  }
+  return sweeps;
 }
 
 std::string results_csv(const RunResults& results) {
@@ -256,17 +230,21 @@ std::string results_csv(const RunResults& results) {
   }
   std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
                     ",seconds_per_scan,peak_memory_mib,name\n";
-  for (const ResultRow& row : results.rows) {
-    csv += csv_text(row.sequence) + "," + csv_text(row.method) + "," + csv_text(row.variant) + "," +
-           csv_text(row.protocol) + "," + csv_text(row.status);
-    for (const std::string& rate : rates) {
-      const auto found = row.rates.find(rate);
-      csv += ",";
-      if (found != row.rates.end() && found->second) csv += rate_text(rate, *found->second);
+  for (const Cell& cell : results.cells) {
+    for (const std::string& protocol : results.protocols) {
+      csv += csv_text(cell.sequence) + "," + csv_text(cell.method.name) + "," +
+             csv_text(cell.method.variant) + "," + csv_text(protocol) + "," +
+             status_name(cell.status);
+      const Score* score = cell.score(protocol);
+      for (const std::string& rate : rates) {
+        const auto value = score == nullptr ? std::nullopt : score->rate(rate);
+        csv += "," + (value ? rate_text(rate, *value) : "");
+      }
+      const Measurement measured = cell.measured.value_or(Measurement{});
+      csv += "," + (cell.measured ? fixed_text(measured.mean_seconds, 6) : "") + ",";
+      if (measured.peak_memory_mib) csv += fixed_text(*measured.peak_memory_mib, 1);
+      csv += "," + csv_text(cell.name) + "\n";
     }
-    csv += "," + (row.seconds_per_scan ? fixed_text(*row.seconds_per_scan, 6) : "");
-    csv += "," + (row.peak_memory_mib ? fixed_text(*row.peak_memory_mib, 1) : "");
-    csv += "," + csv_text(row.cell) + "\n";
   }
   return csv;
 }
@@ -304,7 +282,6 @@ void choose_protocols(RunResults& results, const std::vector<std::string>& proto
   }
   if (protocols.empty()) return;
   std::erase_if(results.protocols, [&](const auto& name) { return !wanted(name); });
-  std::erase_if(results.rows, [&](const ResultRow& row) { return !wanted(row.protocol); });
 }
 
 }  // namespace raymoval

@@ -13,29 +13,6 @@
 
 namespace raymoval {
 
-/// Rates of one cell by one protocol, by name ("PR"); without a value where undefined.
-using RateValues = std::map<std::string, std::optional<double>>;
-
-/// A row of results.csv: a cell scored by a protocol.
-struct ResultRow {
-  std::string sequence;
-  std::string cell;  ///< Name of the method in the suite, "raymoval:online".
-  std::string method;
-  std::string variant;
-  std::string protocol;
-  std::string status;
-  bool control = false;
-  RateValues rates;  ///< Empty unless the status is "ok".
-  /// Low and high end by rate, where they are defined.
-  std::map<std::string, std::pair<double, double>> intervals;
-  std::optional<double> seconds_per_scan;
-  std::optional<double> peak_memory_mib;
-  std::string mask_digest = {};  ///< Of what was removed; equal masks have equal digests.
-
-  /// The value of a rate; nothing if it is undefined or the cell has no result.
-  [[nodiscard]] std::optional<double> rate(const std::string& name) const;
-};
-
 /// Time of a method over all sequences that it finished.
 struct MethodTimes {
   std::string cell;
@@ -46,15 +23,6 @@ struct MethodTimes {
   int repeats = 1;       ///< So many runs were made; the times are those of the median one.
   int threads = 1;       ///< Of the run that had most; what they do at once adds up in `stages`.
   int side_by_side = 1;  ///< The most cells that ran at once with one of these.
-};
-
-/// A cell without a result.
-struct FailedCell {
-  std::string sequence;
-  std::string cell;
-  std::string status;
-  std::string reason;
-  std::string last_output;  ///< Last line that the method printed.
 };
 
 /// A cell that is one point of a sweep.
@@ -68,6 +36,12 @@ struct SweptCell {
   [[nodiscard]] std::string sweep() const;
   /// "tau0=0.2, tau1=0.1".
   [[nodiscard]] std::string point() const;
+};
+
+/// The points of a sweep, which have values of the same parameters.
+struct Sweep {
+  std::string name;                      ///< SweptCell::sweep().
+  std::vector<const SweptCell*> points;  ///< At least one.
 };
 
 /// Columns of a method, added up over all sequences that it finished.
@@ -88,18 +62,17 @@ struct MethodReliability {
   Reliability all;
 };
 
-/// What tables are made of: results.json by rows, and added up over sequences.
+/// What tables are made of: the cells of results.json, and what is added up over sequences.
 struct RunResults {
   std::string name;
   std::vector<std::string> sequences;
-  std::vector<std::string> cells;  ///< Names of the methods, in the order of the suite.
+  std::vector<std::string> methods;  ///< Names in the suite, in its order.
   std::vector<std::string> protocols;
-  std::vector<ResultRow> rows;
+  std::vector<Cell> cells;  ///< Without counts by scan.
   std::vector<MethodColumns> columns;
   std::vector<MethodReliability> reliability;  ///< Of methods that were asked.
   std::vector<MethodTimes> times;              ///< Controls are left out.
   std::vector<SweptCell> sweeps;
-  std::vector<FailedCell> failures;
   std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
   /// Names in the registry of the protocols that the suite calls otherwise, by their names in it.
@@ -107,20 +80,25 @@ struct RunResults {
 
   /// The name in the registry of what the suite calls `protocol`.
   [[nodiscard]] const std::string& kind_of(const std::string& protocol) const;
-  /// The row of a sequence, cell and protocol; null if there is none.
-  [[nodiscard]] const ResultRow* find(const std::string& sequence, const std::string& cell,
-                                      const std::string& protocol) const;
+  /// The cell of a sequence and method; null if there is none.
+  [[nodiscard]] const Cell* find(const std::string& sequence, const std::string& method) const;
+  /// A rate of a cell; no value if it is undefined or the cell has no result.
+  [[nodiscard]] std::optional<double> rate(const std::string& sequence, const std::string& method,
+                                           const std::string& protocol,
+                                           const std::string& rate) const;
   /// The values of a rate on each sequence.
-  [[nodiscard]] SegmentValues values(const std::string& cell, const std::string& protocol,
+  [[nodiscard]] SegmentValues values(const std::string& method, const std::string& protocol,
                                      const std::string& rate) const;
-  /// The point of a sweep that a cell is; null if it is none.
-  [[nodiscard]] const SweptCell* swept(const std::string& cell) const;
-  [[nodiscard]] bool is_swept(const std::string& cell) const { return swept(cell) != nullptr; }
-  [[nodiscard]] bool is_control(const std::string& cell) const;
-  /// Milliseconds per scan over all sequences that the cell's method finished; none for controls.
-  [[nodiscard]] std::optional<double> ms_per_scan(const std::string& cell) const;
-  /// The most memory that the cell's method took on any sequence, in MiB.
-  [[nodiscard]] std::optional<double> peak_mib(const std::string& cell) const;
+  /// The point of a sweep that a method is; null if it is none.
+  [[nodiscard]] const SweptCell* swept(const std::string& method) const;
+  [[nodiscard]] bool is_swept(const std::string& method) const { return swept(method) != nullptr; }
+  [[nodiscard]] bool is_control(const std::string& method) const;
+  /// Milliseconds per scan over all sequences that the method finished; none for controls.
+  [[nodiscard]] std::optional<double> ms_per_scan(const std::string& method) const;
+  /// The most memory that the method took on any sequence, in MiB.
+  [[nodiscard]] std::optional<double> peak_mib(const std::string& method) const;
+  /// Whether a cell has such a rate by `protocol`.
+  [[nodiscard]] bool gives(const std::string& protocol, const std::string& rate) const;
   /// Names of the rates that `protocol` gives and that are shown without being asked for, in order.
   [[nodiscard]] std::vector<std::string> rates_of(const std::string& protocol) const;
   /// The rate by which methods are ranked; empty if `protocol` gives none.
@@ -128,7 +106,10 @@ struct RunResults {
 };
 
 /// What tables show of a run.
-RunResults shown_results(const ResultsRecord& results);
+RunResults shown_results(ResultsRecord results);
+
+/// The sweeps of a run, which `results` holds.
+std::vector<Sweep> sweeps_of(const RunResults& results);
 
 /// results.csv: rates in percent with 3 decimals, F1 with 4, empty where undefined.
 std::string results_csv(const RunResults& results);

@@ -9,20 +9,13 @@
 
 namespace raymoval {
 
-/// The content of run.json without its checksum, and back. As for cells, bytes are kept.
-nlohmann::ordered_json to_json(const RunRecord& run);
-/// @param file stands in messages
+/// The content of run.json without its checksum. @param file stands in messages
 /// @throws FieldError naming the file and the field
 RunRecord run_record_from(const nlohmann::ordered_json& json, const std::string& file);
 
 /// Reads a sealed run.json. @throws DataError if it is missing, damaged or of another version
 RunRecord read_run_record(const std::filesystem::path& file);
 void write_run_record(const std::filesystem::path& file, const RunRecord& run);
-
-/// The content of results.json without its checksum, and back.
-nlohmann::ordered_json to_json(const ResultsRecord& results);
-/// @throws DataError as `run_record_from`
-ResultsRecord results_from(const nlohmann::ordered_json& json, const std::string& file);
 
 /// Reads a sealed results.json. @throws DataError as `read_run_record`
 ResultsRecord read_results(const std::filesystem::path& file);

@@ -79,6 +79,14 @@ double parse_positive(const std::string& option, const std::string& text) {
                    ": expected a number greater than 0 and less than 1,000,000, without a unit.");
 }
 
+int parse_whole(const std::string& option, const std::string& text, int low, int high,
+                const std::string& what, const std::string& example) {
+  const auto value = parse_number<int>(text);
+  if (value && *value >= low && *value <= high) return *value;
+  throw UsageError(option + " " + text + ": expected " + what + " from " + std::to_string(low) +
+                   " to " + std::to_string(high) + example + ".");
+}
+
 RangeLimits parse_range(const std::string& option, const std::string& text) {
   const std::string form = ": expected MIN:MAX in metres, such as 2.7:50";
   const auto parts = split(text, ':');

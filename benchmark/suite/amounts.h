@@ -20,6 +20,10 @@ double parse_seconds(const std::string& option, const std::string& text);
 /// Reads a decimal number greater than 0. @param option for the message. @throws UsageError
 double parse_positive(const std::string& option, const std::string& text);
 
+/// Reads a whole number. @param what such as "a whole number of pixels" @throws UsageError
+int parse_whole(const std::string& option, const std::string& text, int low, int high,
+                const std::string& what = "a whole number", const std::string& example = "");
+
 /// Reads a range "MIN:MAX" in metres; either number may be left out.
 /// @throws UsageError that says what can be written
 RangeLimits parse_range(const std::string& option, const std::string& text);

@@ -16,23 +16,35 @@ namespace {
 /// Marks a setting for a protocol, since `erasor` is the name of a method too.
 const std::string kProtocolPrefix = "protocol:";
 
+const std::pair<std::string, KnownAnswer> kControls[] = {
+    {"noop", KnownAnswer::kNothingRemoved},
+    {"remove-all", KnownAnswer::kEverythingRemoved},
+    {"oracle", KnownAnswer::kMovingPointsRemoved}};
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether a character stays as it is in the name of a folder.
+bool is_plain(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+         std::string_view("-_.=,+").find(c) != std::string_view::npos;
 }
 
 /// Checks a name that appears in folders and tables.
 void check_cell_name(const std::string& name) {
   const bool legal = name_problem(name).empty() && name.size() <= 100 &&
-                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                       return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
-                              (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
-                              c == ':' || c == '=' || c == ',' || c == '+';
-                     });
+                     std::ranges::all_of(name, [](char c) { return c == ':' || is_plain(c); });
   if (!legal) {
     throw UsageError("'" + name +
                      "' cannot name a result: use at most 100 letters, digits and any of - _ . : = "
                      ", +, and begin with a letter, a digit or _.");
   }
+}
+
+[[noreturn]] void throw_same_name(const std::string& what, const std::string& name) {
+  throw UsageError("two " + what + " of this run would be called '" + name +
+                   "'. Leave one out, or give it another name with \"as\" in a suite file.");
 }
 
 /// "town" of "town:scans=60": a scene that the program brings along.
@@ -87,10 +99,8 @@ MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, con
   request.name = as.empty() ? request.method.full_name() : as;
   check_cell_name(request.name);
   for (const MethodRequest& known : suite.methods) {
-    if (folder_name(known.name) == folder_name(request.name)) {
-      throw UsageError("two methods of this run would be called '" + request.name +
-                       "'. Leave one out, or give it another name with \"as\" in a suite file.");
-    }
+    if (folder_name(known.name) != folder_name(request.name)) continue;
+    throw_same_name("methods", request.name);
   }
   suite.methods.push_back(std::move(request));
   return suite.methods.back();
@@ -119,10 +129,7 @@ ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const s
   ProtocolRequest request{as.empty() ? protocol : as, protocol, protocol_defaults(protocol)};
   check_cell_name(request.name);
   for (const ProtocolRequest& known : suite.protocols) {
-    if (known.name == request.name) {
-      throw UsageError("two protocols of this run would be called '" + request.name +
-                       "'. Leave one out, or give it another name with \"as\" in a suite file.");
-    }
+    if (known.name == request.name) throw_same_name("protocols", request.name);
   }
   suite.protocols.push_back(std::move(request));
   return suite.protocols.back();
@@ -255,19 +262,14 @@ void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting&
                    suggestion(target, names));
 }
 
-const std::vector<std::string>& control_names() {
-  static const std::vector<std::string> names = {"noop", "remove-all", "oracle"};
-  return names;
-}
-
 bool is_control(const std::string& method) {
-  return contains(control_names(), method);
+  return known_answer(method).has_value();
 }
 
 void add_controls(Suite& suite, const MethodRegistry& registry) {
   std::vector<MethodRequest> listed = std::move(suite.methods);
   suite.methods.clear();
-  for (const std::string& control : control_names()) {
+  for (const auto& [control, answer] : kControls) {
     const bool there = std::any_of(listed.begin(), listed.end(), [&](const MethodRequest& request) {
       return request.method.entry->name == control;
     });
@@ -278,19 +280,15 @@ void add_controls(Suite& suite, const MethodRegistry& registry) {
 
 std::string folder_name(const std::string& name) {
   std::string folder;
-  for (const char c : name) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                       c == '-' || c == '_' || c == '.' || c == '=' || c == ',' || c == '+';
-    folder += plain ? c : (c == ':' ? '-' : '_');
-  }
+  for (const char c : name) folder += is_plain(c) ? c : (c == ':' ? '-' : '_');
   if (folder.empty() || folder.front() == '.') folder.insert(0, "_");
   return folder;
 }
 
 std::optional<KnownAnswer> known_answer(const std::string& method) {
-  if (method == "noop") return KnownAnswer::kNothingRemoved;
-  if (method == "remove-all") return KnownAnswer::kEverythingRemoved;
-  if (method == "oracle") return KnownAnswer::kMovingPointsRemoved;
+  for (const auto& [control, answer] : kControls) {
+    if (control == method) return answer;
+  }
   return std::nullopt;
 }
 

@@ -106,8 +106,7 @@ void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting&
 /// Puts `noop`, `remove-all` and `oracle` in front, unless the suite lists them already.
 void add_controls(Suite& suite, const MethodRegistry& registry);
 
-/// The names of the controls that `add_controls` knows.
-const std::vector<std::string>& control_names();
+/// Whether `add_controls` adds such a method.
 bool is_control(const std::string& method);
 
 /// The name of a cell's folder: ':' becomes '-', and characters that a file system may not accept

@@ -13,13 +13,12 @@ namespace {
 std::vector<MethodRates> run_methods(const RunResults& results, const std::string& protocol,
                                      bool controls) {
   std::vector<MethodRates> methods;
-  for (const std::string& cell : results.cells) {
-    if (results.is_swept(cell)) continue;  // Shown in a table of its own.
-    const bool wanted =
-        std::any_of(results.rows.begin(), results.rows.end(), [&](const ResultRow& row) {
-          return row.cell == cell && row.protocol == protocol && row.control == controls;
-        });
-    if (wanted) methods.push_back(method_rates(results, cell, protocol));
+  for (const std::string& method : results.methods) {
+    if (results.is_swept(method)) continue;  // Shown in a table of its own.
+    const bool wanted = std::ranges::any_of(results.cells, [&](const Cell& cell) {
+      return cell.name == method && cell.method.control == controls;
+    });
+    if (wanted) methods.push_back(method_rates(results, method, protocol));
   }
   return methods;
 }
@@ -27,11 +26,9 @@ std::vector<MethodRates> run_methods(const RunResults& results, const std::strin
 MethodRates outside_rates(const std::vector<std::string>& sequences, const OutsideColumn& given) {
   MethodRates method{given.heading};
   method.printed_digits = published_form(given.protocol).decimals;
-  for (const std::string& sequence : sequences) {
-    method.by_sequence.push_back(given.find(sequence));
-    method.status.emplace_back("-");
-    method.ms.emplace_back(std::nullopt);
-  }
+  for (const std::string& sequence : sequences) method.by_sequence.push_back(given.find(sequence));
+  method.status.assign(sequences.size(), "-");
+  method.ms.resize(sequences.size());
   return method;
 }
 

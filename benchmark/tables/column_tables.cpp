@@ -46,6 +46,43 @@ std::vector<std::string> column_names(const std::vector<const MethodColumns*>& m
   return names;
 }
 
+/// The points that a column is about.
+std::int64_t most_points(const std::vector<const MethodColumns*>& methods,
+                         const std::string& name) {
+  std::int64_t points = 0;
+  for (const MethodColumns* method : methods) points = std::max(points, method->find(name).whole);
+  return points;
+}
+
+/// The part that a column is about: "range 0-10 m" for "rejection [range 0-10 m]", and "all" for
+/// "rejection". It has no value for other columns and for classes within a band.
+std::optional<std::string> part_of(const std::string& column, const std::string& kind) {
+  const ColumnName name = parse_column_name(column);
+  if (name.kind != kind || (!name.group.empty() && !name.axis.empty())) return std::nullopt;
+  if (!name.group.empty()) return name.group;
+  return name.axis.empty() ? "all" : name.axis + " " + name.band;
+}
+
+/// A table of what is lost of each part, with a column for each method.
+/// @param kind the name of the columns that hold what is not lost
+TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
+                     const std::string& title) {
+  TextTable table{title, "of", {{"", {"points"}}}};
+  for (const MethodColumns* method : methods) table.groups[0].columns.push_back(method->cell);
+  for (const std::string& column : column_names(methods)) {
+    const std::optional<std::string> part = part_of(column, kind);
+    const std::int64_t points = most_points(methods, column);
+    if (!part || points == 0) continue;
+    TableRow row{*part, {{grouped_text(static_cast<std::uint64_t>(points))}}};
+    for (const MethodColumns* method : methods) {
+      const auto kept = method->find(column).percent();
+      row.cells.push_back(kept ? number_cell(100.0 - *kept, 2) : TableCell{"n/a"});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 /// Rejection or preservation by range or height: in all, then by band.
 TextTable band_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
                      const std::string& axis) {
@@ -56,7 +93,7 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
     if (parts.axis == axis) add_once(bands, parts.band);
     add_once(groups, parts.group);
   }
-  TextTable table{"Columns: " + kind + " by " + axis, "method", {{"", {"all"}}}, {}, {}};
+  TextTable table{"Columns: " + kind + " by " + axis, "method", {{"", {"all"}}}};
   for (const std::string& band : bands) table.groups[0].columns.push_back(band);
   const auto add_row = [&](const std::string& label, const std::string& group, auto&& text) {
     TableRow row{label, {{text(ColumnName{kind, group}.text())}}, label == "points", {}};
@@ -71,13 +108,8 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
       add_row(method->cell, group,
               [&](const std::string& name) { return percent_text(method->find(name)); });
     }
-    add_row("points", group, [&](const std::string& name) {
-      std::int64_t points = 0;
-      for (const MethodColumns* method : methods) {
-        points = std::max(points, method->find(name).whole);
-      }
-      return std::to_string(points);
-    });
+    add_row("points", group,
+            [&](const std::string& name) { return std::to_string(most_points(methods, name)); });
   }
   table.notes.push_back("In percent of the points in the last row of each block" +
                         std::string(kind == "rejection" ? ": moving ones that are removed."
@@ -87,16 +119,15 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
 
 /// Figures that are neither of a class nor of a band.
 TextTable whole_table(const std::vector<const MethodColumns*>& methods) {
-  TextTable table{"Columns", "method", {{"", {}}}, {}, {}};
+  TextTable table{"Columns", "method", {{"", {}}}};
   for (const std::string& name : column_names(methods)) {
     if (name == parse_column_name(name).kind) table.groups[0].columns.push_back(name);
   }
   for (const MethodColumns* method : methods) {
-    TableRow row{method->cell, {}, false};
+    TableRow& row = table.rows.emplace_back(TableRow{method->cell, {}});
     for (const std::string& name : table.groups[0].columns) {
       row.cells.push_back({percent_text(method->find(name))});
     }
-    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -113,24 +144,41 @@ std::string general_notes() {
          " m above it.";
 }
 
+/// "99.131 to 99.689"; empty if there is no such interval.
+std::string interval_text(const Score& score, const std::string& rate) {
+  if (!score.intervals) return "";
+  for (const Interval& interval : score.intervals->rates) {
+    if (interval.name != rate || !interval.low) continue;
+    return rate_text(rate, *interval.low) + " to " + rate_text(rate, *interval.high);
+  }
+  return "";
+}
+
+bool has_interval(const Score& score) {
+  return score.intervals && std::ranges::any_of(score.intervals->rates, [](const auto& interval) {
+           return interval.low.has_value();
+         });
+}
+
 TextTable interval_table(const RunResults& results, const std::string& protocol) {
-  TextTable table{"Intervals by protocol " + protocol, "method", {{"", {}}}, {}, {}};
+  TextTable table{"Intervals by protocol " + protocol, "method", {{"", {}}}};
+  std::vector<const Cell*> cells;
+  for (const Cell& cell : results.cells) {
+    const Score* score = cell.score(protocol);
+    if (score != nullptr && has_interval(*score)) cells.push_back(&cell);
+  }
   std::vector<std::string>& rates = table.groups[0].columns;
   for (const std::string& rate : results.rates_of(protocol)) {
-    const bool there = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-      return row.protocol == protocol && row.intervals.contains(rate);
+    const bool there = std::ranges::any_of(cells, [&](const Cell* cell) {
+      return !interval_text(*cell->score(protocol), rate).empty();
     });
     if (there) rates.push_back(rate);
   }
-  for (const ResultRow& row : results.rows) {
-    if (row.protocol != protocol || row.intervals.empty()) continue;
-    table.rows.push_back({row.cell, {}, false, row.sequence});
+  for (const Cell* cell : cells) {
+    table.rows.push_back({cell->name, {}, false, cell->sequence});
     for (const std::string& rate : rates) {
-      const auto found = row.intervals.find(rate);
-      const bool there = found != row.intervals.end();
-      table.rows.back().cells.push_back({there ? rate_text(rate, found->second.first) + " to " +
-                                                     rate_text(rate, found->second.second)
-                                               : "n/a"});
+      const std::string text = interval_text(*cell->score(protocol), rate);
+      table.rows.back().cells.push_back({text.empty() ? "n/a" : text});
     }
   }
   table.notes.push_back(
@@ -139,26 +187,18 @@ TextTable interval_table(const RunResults& results, const std::string& protocol)
   return table;
 }
 
-/// A share as a text with three decimals, or a dash.
-TableCell share_cell(const std::optional<double>& share) {
-  return share ? number_cell(*share, 3) : TableCell{"-"};
-}
-
 TextTable reliability_table(const MethodReliability& method) {
   TextTable table{"Confidence of " + method.cell,
                   "said to move",
-                  {{"", {"points", "mean said", "share that moves"}}},
-                  {},
-                  {}};
+                  {{"", {"points", "mean said", "share that moves"}}}};
   for (std::size_t i = 0; i < kConfidenceBins; ++i) {
     const ReliabilityBin& bin = method.all.bins[i];
     const double width = 1.0 / static_cast<double>(kConfidenceBins);
     table.rows.push_back({fixed_text(static_cast<double>(i) * width, 1) + " to " +
                               fixed_text(static_cast<double>(i + 1) * width, 1),
                           {{grouped_text(static_cast<std::uint64_t>(bin.points))},
-                           share_cell(bin.mean_confidence()),
-                           share_cell(bin.moving_share())},
-                          false});
+                           number_or(bin.mean_confidence(), 3, "-"),
+                           number_or(bin.moving_share(), 3, "-")}});
   }
   const auto error = method.all.expected_error(), gap = method.all.mean_gap();
   table.notes.push_back("By the points' labels, over " +
@@ -175,21 +215,16 @@ TextTable reliability_table(const MethodReliability& method) {
 std::vector<TextTable> compact_column_tables(const RunResults& results) {
   const std::vector<const MethodColumns*> methods = shown_methods(results, false);
   if (methods.empty()) return {};
-  TextTable table{
-      "Points removed",
-      "method",
-      {{"",
-        {"precision", "recall", "residue", "preservation", "worst mover", "worst static class"}}},
-      {},
-      {}};
+  const std::vector<std::string> columns = {"precision",    "recall",      "residue",
+                                            "preservation", "worst mover", "worst static class"};
+  TextTable table{"Points removed", "method", {{"", columns}}};
   for (const MethodColumns* method : methods) {
-    TableRow row{method->cell, {}, false};
+    TableRow& row = table.rows.emplace_back(TableRow{method->cell, {}});
     for (const char* name : {"precision", "recall", "residue", "preservation"}) {
       row.cells.push_back({percent_text(method->find(name))});
     }
     row.cells.push_back({worst_class(*method, "rejection")});
     row.cells.push_back({worst_class(*method, "preservation")});
-    table.rows.push_back(std::move(row));
   }
   table.notes.push_back(
       "In percent of points, all sequences together. precision: moving ones of the removed; "
@@ -201,6 +236,19 @@ std::vector<TextTable> compact_column_tables(const RunResults& results) {
       " points or more, the mover least removed and the static class least kept. `raymoval table "
       "RUN --columns` has every class, range and height.");
   return {table};
+}
+
+std::vector<TextTable> loss_tables(const RunResults& results) {
+  const std::vector<const MethodColumns*> methods = shown_methods(results, false);
+  TextTable missed = loss_table(methods, "rejection", "Moving points that stay, in percent");
+  missed.notes.emplace_back("Lower is better; the darker, the more is lost.");
+  TextTable lost = loss_table(methods, "preservation", "Static points that go, in percent");
+  lost.notes.emplace_back(
+      "Counts are added up over all sequences. Heights are above the road under the sensor. "
+      "`raymoval table RUN --columns` has classes by range and height too.");
+  std::vector<TextTable> tables = {std::move(missed), std::move(lost)};
+  std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
+  return tables;
 }
 
 std::vector<TextTable> full_column_tables(const RunResults& results) {

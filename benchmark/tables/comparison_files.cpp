@@ -2,76 +2,114 @@
 #include "benchmark/tables/comparison_files.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
 
-#include "benchmark/result/cell.h"
-#include "benchmark/result/sealed_json.h"
-#include "benchmark/tables/text/text_table.h"
+#include "benchmark/result/record_fields.h"
+#include "benchmark/tables/table_options.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/utf8.h"
 
 namespace raymoval {
+
+static void describe(RecordWriter& writer, const ComparisonOptions& options) {
+  std::vector<std::string> across;
+  if (options.across_parameters) across.emplace_back("parameters");
+  if (options.across_version) across.emplace_back("version");
+  writer.field("tolerances", options.tolerances);
+  writer.field("time_band", options.time_band);
+  writer.field("across", across);
+}
+
+static void describe(RecordWriter& writer, const ComparisonLine& line) {
+  writer.field("verdict", change_name(line.change));
+  writer.field("text", line.text);
+}
+
+static void describe(RecordWriter& writer, const RateChange& rate) {
+  writer.field("name", rate.name);
+  writer.field("reference", rate.before);
+  writer.field("run", rate.after);
+  writer.field("tolerance", rate.tolerance);
+  writer.field("verdict", change_name(rate.change));
+}
+
+static void describe(RecordWriter& writer, const CountChange& count) {
+  writer.field("name", count.name);
+  writer.field("reference", count.before);
+  writer.field("run", count.after);
+}
+
+static void describe(RecordWriter& writer, const ScoreComparison& score) {
+  writer.field("sequence", score.sequence);
+  writer.field("name", score.name);
+  writer.nullable("protocol", score.protocol);
+  writer.field("verdict", change_name(score.change));
+  writer.field("reasons", score.reasons);
+  writer.field("across", score.across);
+  writer.field("rates", score.rates);
+  writer.field("counts", score.counts);
+}
+
+static void describe(RecordWriter& writer, const TimeChange& time) {
+  const bool both = time.change != Change::kIncomparable;
+  writer.field("sequence", time.sequence);
+  writer.field("name", time.name);
+  writer.field("reference", time.before);
+  writer.field("run", time.after);
+  writer.field("ratio", both ? std::optional(time.ratio()) : std::nullopt);
+  writer.field("verdict", change_name(time.change));
+}
+
 namespace {
 
 bool only_in_run(const ScoreComparison& score) {
   return score.change == Change::kMoved && score.rates.empty() && !score.reasons.empty();
 }
 
-/// All that moved in a score, in words.
-std::vector<std::string> moved_parts(const ScoreComparison& score) {
+/// What moved in a score, in words.
+std::vector<std::string> moved_parts(const ScoreComparison& score, bool with_counts) {
   std::vector<std::string> parts = score.reasons;
   for (const RateChange& rate : score.rates) {
     if (rate.change != Change::kSame) parts.push_back(change_text(rate));
   }
-  for (const CountChange& count : score.counts) parts.push_back(change_text(count));
+  for (const CountChange& count : with_counts ? score.counts : std::vector<CountChange>()) {
+    parts.push_back(change_text(count));
+  }
   return parts;
 }
 
 std::vector<std::string> sequences_of(const Comparison& comparison) {
   std::vector<std::string> names;
-  for (const ScoreComparison& score : comparison.scores) {
-    if (std::find(names.begin(), names.end(), score.sequence) == names.end()) {
-      names.push_back(score.sequence);
-    }
-  }
+  for (const ScoreComparison& score : comparison.scores) add_once(names, score.sequence);
   return names;
 }
 
 // Markdown.
 
-/// Text in a cell of a table.
-std::string in_table(const std::string& text) {
-  std::string escaped;
-  for (const char c : printable_text(text)) {
-    if (std::string_view("|\\`*_<[&").find(c) != std::string_view::npos) escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
+/// Text in which '_' is nothing special either.
+std::string markdown_word(const std::string& text) {
+  return markdown_text(text, "|<*[`\\&_");
 }
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string row = "|";
-  for (const std::string& cell : cells) row += " " + in_table(cell) + " |";
+  for (const std::string& cell : cells) row += " " + markdown_word(cell) + " |";
   return row + "\n";
 }
 
 std::string comparison_markdown(const Comparison& comparison, const ComparisonSubject& subject) {
-  std::string text = "**" + in_table(subject.run) + " against " + in_table(subject.reference) +
-                     ": " + comparison.verdict_words() + "** (" +
+  std::string text = "**" + markdown_word(subject.run) + " against " +
+                     markdown_word(subject.reference) + ": " + comparison.verdict_words() + "** (" +
                      std::to_string(comparison.same_cells) + " of " +
                      std::to_string(comparison.cells) + " cells are the same)\n";
   std::string rows;
   for (const ScoreComparison& score : comparison.scores) {
     if (score.change == Change::kSame) continue;
-    std::vector<std::string> rates = score.reasons;
-    for (const RateChange& rate : score.rates) {
-      if (rate.change != Change::kSame) rates.push_back(change_text(rate));
-    }
-    if (rates.empty()) rates = moved_parts(score);
+    std::vector<std::string> rates = moved_parts(score, false);
+    if (rates.empty()) rates = moved_parts(score, true);
     rows += markdown_row({change_name(score.change), score.sequence, score.name, score.protocol,
                           join(rates, "; "), join(score.across, "; ")});
   }
@@ -83,9 +121,9 @@ std::string comparison_markdown(const Comparison& comparison, const ComparisonSu
   }
   std::string more;
   for (const ComparisonLine& line : comparison.lines) {
-    if (line.sequence.empty()) more += "- " + in_table(line.text) + "\n";
+    if (line.sequence.empty()) more += "- " + markdown_word(line.text) + "\n";
   }
-  for (const std::string& line : comparison.times) more += "- time: " + in_table(line) + "\n";
+  for (const std::string& line : comparison.times) more += "- time: " + markdown_word(line) + "\n";
   return text + (more.empty() ? "" : "\n" + more);
 }
 
@@ -134,7 +172,7 @@ std::vector<TestCase> sequence_tests(const Comparison& comparison, const std::st
   std::vector<TestCase> tests;
   for (const ScoreComparison& score : comparison.scores) {
     if (score.sequence != sequence) continue;
-    std::vector<std::string> parts = moved_parts(score);
+    std::vector<std::string> parts = moved_parts(score, true);
     if (score.change == Change::kSame) parts.clear();
     parts.insert(parts.end(), score.across.begin(), score.across.end());
     tests.push_back({score.name + (score.protocol.empty() ? "" : ", " + score.protocol),
@@ -179,90 +217,22 @@ std::string comparison_junit(const Comparison& comparison) {
 
 // JSON.
 
-using nlohmann::ordered_json;
-
-template <class Value>
-ordered_json value_or_null(const std::optional<Value>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-/// A list with what `to_record` makes of each item.
-template <class Item, class Function>
-ordered_json list_of(const std::vector<Item>& items, Function to_record) {
-  ordered_json list = ordered_json::array();
-  for (const Item& item : items) list.push_back(to_record(item));
-  return list;
-}
-
-ordered_json options_record(const ComparisonOptions& options) {
-  ordered_json tolerances = ordered_json::object();
-  for (const auto& [rate, tolerance] : options.tolerances) tolerances[rate] = tolerance;
-  ordered_json across = ordered_json::array();
-  if (options.across_parameters) across.push_back("parameters");
-  if (options.across_version) across.push_back("version");
-  return {{"tolerances", std::move(tolerances)},
-          {"time_band", value_or_null(options.time_band)},
-          {"across", std::move(across)}};
-}
-
-ordered_json rate_json(const RateChange& rate) {
-  return {{"name", rate.name},
-          {"reference", value_or_null(rate.before)},
-          {"run", value_or_null(rate.after)},
-          {"tolerance", value_or_null(rate.tolerance)},
-          {"verdict", change_name(rate.change)}};
-}
-
-ordered_json count_json(const CountChange& count) {
-  return {{"name", count.name},
-          {"reference", value_or_null(count.before)},
-          {"run", value_or_null(count.after)}};
-}
-
-ordered_json score_json(const ScoreComparison& score) {
-  return {
-      {"sequence", score.sequence},
-      {"name", score.name},
-      {"protocol", score.protocol.empty() ? ordered_json(nullptr) : ordered_json(score.protocol)},
-      {"verdict", change_name(score.change)},
-      {"reasons", score.reasons},
-      {"across", score.across},
-      {"rates", list_of(score.rates, rate_json)},
-      {"counts", list_of(score.counts, count_json)}};
-}
-
-ordered_json time_json(const TimeChange& time) {
-  const bool both = time.change != Change::kIncomparable;
-  return {{"sequence", time.sequence},
-          {"name", time.name},
-          {"reference", value_or_null(time.before)},
-          {"run", value_or_null(time.after)},
-          {"ratio", both ? ordered_json(time.ratio()) : ordered_json(nullptr)},
-          {"verdict", change_name(time.change)}};
-}
-
-/// The lines that are about the run as a whole.
-ordered_json problem_records(const Comparison& comparison) {
-  ordered_json problems = ordered_json::array();
-  for (const ComparisonLine& line : comparison.lines) {
-    if (!line.sequence.empty()) continue;
-    problems.push_back({{"verdict", change_name(line.change)}, {"text", line.text}});
-  }
-  return problems;
-}
-
-ordered_json comparison_record(const Comparison& comparison, const ComparisonSubject& subject) {
-  return {{"schema_version", kSchemaVersion},
-          {"run", subject.run},
-          {"reference", subject.reference},
-          {"verdict", comparison.verdict_words()},
-          {"exit_code", static_cast<int>(comparison.verdict())},
-          {"cells", comparison.cells},
-          {"same_cells", comparison.same_cells},
-          {"options", options_record(subject.options)},
-          {"problems", problem_records(comparison)},
-          {"scores", list_of(comparison.scores, score_json)},
-          {"times", list_of(comparison.time_changes, time_json)}};
+std::string comparison_json(const Comparison& comparison, const ComparisonSubject& subject) {
+  RecordWriter writer;
+  writer.schema_version();
+  writer.field("run", subject.run);
+  writer.field("reference", subject.reference);
+  writer.field("verdict", comparison.verdict_words());
+  writer.field("exit_code", static_cast<int>(comparison.verdict()));
+  writer.field("cells", comparison.cells);
+  writer.field("same_cells", comparison.same_cells);
+  writer.field("options", subject.options);
+  std::vector<ComparisonLine> of_run = comparison.lines;
+  std::erase_if(of_run, [](const ComparisonLine& line) { return !line.sequence.empty(); });
+  writer.field("problems", of_run);
+  writer.field("scores", comparison.scores);
+  writer.field("times", comparison.time_changes);
+  return json_text(writer.json);
 }
 
 }  // namespace
@@ -277,7 +247,7 @@ std::string comparison_in(const std::string& format, const Comparison& compariso
   if (format == "text") return comparison_text(comparison);
   if (format == "md") return comparison_markdown(comparison, subject);
   if (format == "junit") return comparison_junit(comparison);
-  if (format == "json") return json_text(comparison_record(comparison, subject));
+  if (format == "json") return comparison_json(comparison, subject);
   throw UsageError("--format " + format + ": is no way to write a comparison." +
                    suggestion(format, comparison_formats()));
 }

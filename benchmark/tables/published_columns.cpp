@@ -53,7 +53,7 @@ OutsideColumn& column_of(const std::string& method, const std::string& protocol,
 
 }  // namespace
 
-const RateValues* OutsideColumn::find(const std::string& name) const {
+const std::vector<Rate>* OutsideColumn::find(const std::string& name) const {
   const std::string prefix = published_form(protocol).sequence_prefix;
   for (const auto& [sequence, values] : sequences) {
     if (sequence == name || prefix + sequence == name) return &values;
@@ -74,7 +74,9 @@ std::vector<OutsideColumn> published_columns() {
   for (const ProtocolEntry& entry : protocol_entries()) {
     for (const char* file : published_form(entry.name).files) {
       for (const PublishedRow& row : load_published_table(folder / file).rows) {
-        column_of(row.method, entry.name, columns).sequences.emplace_back(row.sequence, row.values);
+        std::vector<Rate> rates;
+        for (const auto& [name, value] : row.values) rates.push_back({name, value});
+        column_of(row.method, entry.name, columns).sequences.emplace_back(row.sequence, rates);
       }
     }
   }

@@ -13,11 +13,11 @@ namespace raymoval {
 struct OutsideColumn {
   std::string heading;
   std::string protocol;  ///< Name in the registry of protocols.
-  std::vector<std::pair<std::string, RateValues>> sequences;
+  std::vector<std::pair<std::string, std::vector<Rate>>> sequences;
 
   /// Rates of what a run calls `name`. A paper may call "05" what the shipped suites call
   /// "kitti-05" (see `PublishedForm`). Null if there are none.
-  [[nodiscard]] const RateValues* find(const std::string& name) const;
+  [[nodiscard]] const std::vector<Rate>* find(const std::string& name) const;
 };
 
 /// How papers print the rates of a protocol.

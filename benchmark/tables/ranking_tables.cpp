@@ -26,8 +26,7 @@ Ranking ranking_of(const RunResults& results, const std::vector<std::string>& se
   for (const std::string& method : methods) {
     SegmentValues values;
     for (const std::string& sequence : sequences) {
-      const ResultRow* row = results.find(sequence, method, protocol);
-      values.push_back(row == nullptr ? std::nullopt : row->rate(ranking.rate));
+      values.push_back(results.rate(sequence, method, protocol, ranking.rate));
     }
     const Mean mean = mean_of(values);
     const bool whole = mean.value && mean.segments == sequences.size();
@@ -85,11 +84,11 @@ std::vector<std::string> swaps(const std::vector<Ranking>& rankings,
 
 std::vector<std::string> ranked_methods(const RunResults& results) {
   std::vector<std::string> methods;
-  for (const std::string& cell : results.cells) {
-    const bool method = std::any_of(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-      return row.cell == cell && !row.control;
+  for (const std::string& method : results.methods) {
+    const bool ranked = std::ranges::any_of(results.cells, [&](const Cell& cell) {
+      return cell.name == method && !cell.method.control;
     });
-    if (method) methods.push_back(cell);
+    if (ranked) methods.push_back(method);
   }
   return methods;
 }
@@ -108,13 +107,12 @@ void add_ranks(const RunResults& results, const std::vector<std::string>& sequen
   }
   table.groups[0].columns.push_back("change");
   for (std::size_t method = 0; method < methods.size(); ++method) {
-    TableRow row{methods[method], {}, false, heading};
+    TableRow& row = table.rows.emplace_back(TableRow{methods[method], {}, false, heading});
     for (const Ranking& ranking : rankings) {
       const auto& rank = ranking.ranks[method];
       row.cells.push_back({rank ? std::to_string(*rank) : "-"});
     }
     row.cells.push_back({change_text(rankings, method)});
-    table.rows.push_back(std::move(row));
   }
   if (!name_pairs) return;
   for (const std::string& swap : swaps(rankings, methods)) {
@@ -126,7 +124,7 @@ void add_ranks(const RunResults& results, const std::vector<std::string>& sequen
 
 std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options) {
   if (results.protocols.size() < 2 || ranked_methods(results).size() < 2) return {};
-  TextTable table{"Ranking by protocol", "method", {}, {}, {}};
+  TextTable table{"Ranking by protocol", "method"};
   table.notes.push_back(
       "Ranks; what is displayed alike ties. change: places gained (+) or lost from the first "
       "protocol to the one where most are; -: not in all sequences. Differences within the "

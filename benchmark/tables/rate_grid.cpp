@@ -9,29 +9,30 @@
 namespace raymoval {
 namespace {
 
-TableCell grid_time_cell(const RateGrid& grid, const std::optional<double>& ms) {
-  return ms ? number_cell(*ms, 1) : TableCell{grid.no_time};
-}
-
-/// A rate on a sequence, or the word for its lack.
-TableCell grid_rate_cell(const MethodRates& method, std::size_t sequence, const std::string& rate,
-                         const TableOptions& options) {
-  const auto value = method.rate(sequence, rate);
-  if (value) return rate_cell(options, rate, *value, method.printed_digits);
+/// The rates of a method on a sequence, or the word for their lack, and its time if the grid has
+/// times.
+std::vector<TableCell> sequence_cells(const RateGrid& grid, const MethodRates& method,
+                                      std::size_t sequence, const TableOptions& options) {
+  std::vector<TableCell> cells;
   const std::string& status = method.status[sequence];
-  return {status.empty() || status == "ok" ? "n/a" : status};
+  for (const std::string& rate : grid.rates) {
+    const auto value = method.values(rate)[sequence];
+    cells.push_back(value ? rate_cell(options, rate, *value, method.printed_digits)
+                          : TableCell{status.empty() || status == "ok" ? "n/a" : status});
+  }
+  if (grid.timed) cells.push_back(number_or(method.ms[sequence], 1, grid.no_time));
+  return cells;
 }
 
 /// The rates of the grid for which the formula's value of the means is shown too.
 std::vector<RateSpec> rates_of_means(const RateGrid& grid) {
-  const auto has = [&](const std::string& rate) {
-    return std::find(grid.rates.begin(), grid.rates.end(), rate) != grid.rates.end();
-  };
   std::vector<RateSpec> specs;
   for (const std::string& rate : grid.rates) {
     const RateSpec spec = rate_spec(rate);
     if (!spec.formula || !spec.formula->shown_of_means) continue;
-    if (has(spec.formula->first) && has(spec.formula->second)) specs.push_back(spec);
+    if (is_among(grid.rates, spec.formula->first) && is_among(grid.rates, spec.formula->second)) {
+      specs.push_back(spec);
+    }
   }
   return specs;
 }
@@ -45,10 +46,15 @@ TableCell of_means_cell(const RateSpec& spec, const MethodRates& method,
   return mean_cell(options, spec.name, mean, method.by_sequence.size(), method.printed_digits);
 }
 
-TableCell grid_mean_cell(const MethodRates& method, const std::string& rate,
-                         const TableOptions& options) {
-  return mean_cell(options, rate, mean_of(method.values(rate)), method.by_sequence.size(),
-                   method.printed_digits);
+/// The means of a method's rates over the sequences.
+std::vector<TableCell> mean_cells(const RateGrid& grid, const MethodRates& method,
+                                  const TableOptions& options) {
+  std::vector<TableCell> cells;
+  for (const std::string& rate : grid.rates) {
+    cells.push_back(mean_cell(options, rate, mean_of(method.values(rate)),
+                              method.by_sequence.size(), method.printed_digits));
+  }
+  return cells;
 }
 
 std::vector<std::string> mean_names(const RateGrid& grid) {
@@ -107,37 +113,19 @@ void finish_blocks(TextTable& table, const RateGrid& grid, const TableOptions& o
     sort_block(table, block, columns, options.sort);
     if (!grid.ranked) continue;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      mark_best(column_cells(table, i, block), columns[i].higher_is_better);
+      mark_best(table, i, columns[i].higher_is_better, block);
     }
   }
-}
-
-TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
-  TextTable table{grid.title, "method", {{"", grid.rates}}, {}, {}};
-  if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
-  for (std::size_t i = 0; i < grid.sequences.size(); ++i) {
-    for (const MethodRates& method : grid.methods) {
-      // What others printed stands beside their own sequences only.
-      if (method.printed_digits > 0 && method.by_sequence[i] == nullptr) continue;
-      table.rows.push_back(sequence_row(grid, method, i, options));
-    }
-  }
-  finish_blocks(table, grid, options, false);
-  return table;
 }
 
 bool is_complete(const MethodRates& method) {
   return std::all_of(method.by_sequence.begin(), method.by_sequence.end(),
-                     [](const RateValues* known) { return known != nullptr; });
+                     [](const auto* known) { return known != nullptr; });
 }
 
 TextTable mean_block(const RateGrid& grid, const TableOptions& options) {
-  TextTable table{
-      grid.title + ", mean over " + std::to_string(grid.sequences.size()) + " sequences",
-      "method",
-      {{"", mean_names(grid)}},
-      {},
-      {}};
+  const std::string sequences = std::to_string(grid.sequences.size()) + " sequences";
+  TextTable table{grid.title + ", mean over " + sequences, "method", {{"", mean_names(grid)}}};
   const std::vector<RateSpec> of_means = rates_of_means(grid);
   for (const RateSpec& spec : of_means) {
     table.groups[0].columns.push_back(spec.name + "_of_means");
@@ -190,9 +178,7 @@ void add_mean_rows(const RateGrid& grid, const std::vector<const MethodRates*>& 
                    const TableOptions& options, TextTable& table) {
   TableRow means{join(mean_names(grid)), {}, true};
   for (const MethodRates* method : methods) {
-    for (const std::string& rate : grid.rates) {
-      means.cells.push_back(grid_mean_cell(*method, rate, options));
-    }
+    for (TableCell& cell : mean_cells(grid, *method, options)) means.cells.push_back(cell);
   }
   table.rows.push_back(std::move(means));
   for (const RateSpec& spec : rates_of_means(grid)) {
@@ -209,17 +195,14 @@ void add_mean_rows(const RateGrid& grid, const std::vector<const MethodRates*>& 
 
 /// The paper's Table 2.
 TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options) {
-  TextTable table{grid.title, "sequence", {}, {}, {}};
+  TextTable table{grid.title, "sequence"};
   const std::vector<const MethodRates*> methods = sorted_methods(grid, options);
   for (const MethodRates* method : methods) table.groups.push_back({method->heading, grid.rates});
   for (std::size_t i = 0; i < grid.sequences.size(); ++i) {
-    TableRow row{grid.sequences[i], {}, false};
+    TableRow& row = table.rows.emplace_back(TableRow{grid.sequences[i], {}});
     for (const MethodRates* method : methods) {
-      for (const std::string& rate : grid.rates) {
-        row.cells.push_back(grid_rate_cell(*method, i, rate, options));
-      }
+      for (TableCell& cell : sequence_cells(grid, *method, i, options)) row.cells.push_back(cell);
     }
-    table.rows.push_back(std::move(row));
   }
   if (!grid.ranked) return table;
   add_mean_rows(grid, methods, options, table);
@@ -229,55 +212,53 @@ TextTable methods_side_by_side(const RateGrid& grid, const TableOptions& options
 
 }  // namespace
 
-std::optional<double> MethodRates::rate(std::size_t sequence, const std::string& name) const {
-  if (by_sequence[sequence] == nullptr) return std::nullopt;
-  const auto found = by_sequence[sequence]->find(name);
-  return found == by_sequence[sequence]->end() ? std::nullopt : found->second;
-}
-
 SegmentValues MethodRates::values(const std::string& name) const {
   SegmentValues list;
-  for (std::size_t i = 0; i < by_sequence.size(); ++i) list.push_back(rate(i, name));
+  for (const std::vector<Rate>* rates : by_sequence) {
+    list.push_back(rates == nullptr ? std::nullopt : rate_of(*rates, name));
+  }
   return list;
 }
 
-MethodRates method_rates(const RunResults& results, const std::string& cell,
+MethodRates method_rates(const RunResults& results, const std::string& method,
                          const std::string& protocol) {
-  MethodRates method{cell};
+  MethodRates row{method};
   for (const std::string& sequence : results.sequences) {
-    const ResultRow* row = results.find(sequence, cell, protocol);
-    const bool scored = row != nullptr && row->status == "ok";
-    method.by_sequence.push_back(scored ? &row->rates : nullptr);
-    method.status.push_back(row != nullptr ? row->status : "");
-    const bool timed = scored && row->seconds_per_scan;
-    method.ms.push_back(timed ? std::optional(1000.0 * *row->seconds_per_scan) : std::nullopt);
+    const Cell* cell = results.find(sequence, method);
+    const Score* score = cell == nullptr ? nullptr : cell->score(protocol);
+    const bool timed = cell != nullptr && cell->ok() && cell->measured;
+    row.by_sequence.push_back(score == nullptr ? nullptr : &score->rates);
+    row.status.emplace_back(cell == nullptr ? "" : status_name(cell->status));
+    row.ms.push_back(timed ? std::optional(1000.0 * cell->measured->mean_seconds) : std::nullopt);
   }
-  method.mean_ms = results.ms_per_scan(cell);
-  return method;
-}
-
-TableRow sequence_row(const RateGrid& grid, const MethodRates& method, std::size_t sequence,
-                      const TableOptions& options) {
-  TableRow row{method.heading, {}, false, grid.sequences[sequence]};
-  for (const std::string& rate : grid.rates) {
-    row.cells.push_back(grid_rate_cell(method, sequence, rate, options));
-  }
-  if (grid.timed) row.cells.push_back(grid_time_cell(grid, method.ms[sequence]));
+  row.mean_ms = results.ms_per_scan(method);
   return row;
 }
 
-TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options) {
-  TableRow row{method.heading, {}, false};
-  for (const std::string& rate : grid.rates) {
-    row.cells.push_back(grid_mean_cell(method, rate, options));
+TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
+  TextTable table{grid.title, "method", {{"", grid.rates}}};
+  if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
+  for (std::size_t i = 0; i < grid.sequences.size(); ++i) {
+    for (const MethodRates& method : grid.methods) {
+      // What others printed stands beside their own sequences only.
+      if (method.printed_digits > 0 && method.by_sequence[i] == nullptr) continue;
+      table.rows.push_back(
+          {method.heading, sequence_cells(grid, method, i, options), false, grid.sequences[i]});
+    }
   }
-  if (grid.timed) row.cells.push_back(grid_time_cell(grid, method.mean_ms));
+  return table;
+}
+
+TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options) {
+  TableRow row{method.heading, mean_cells(grid, method, options)};
+  if (grid.timed) row.cells.push_back(number_or(method.mean_ms, 1, grid.no_time));
   return row;
 }
 
 std::vector<TextTable> rate_tables(const RateGrid& grid, const TableOptions& options) {
   if (options.layout == TableLayout::kSequenceRows) return {methods_side_by_side(grid, options)};
   std::vector<TextTable> tables = {sequence_blocks(grid, options)};
+  finish_blocks(tables[0], grid, options, false);
   if (grid.ranked && grid.sequences.size() > 1) tables.push_back(mean_block(grid, options));
   return tables;
 }

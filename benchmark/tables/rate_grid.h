@@ -15,19 +15,18 @@ namespace raymoval {
 /// A method's rates by sequence, from the run or from elsewhere.
 struct MethodRates {
   std::string heading;
-  std::vector<const RateValues*> by_sequence = {};  ///< Null: not known there.
-  std::vector<std::string> status = {};             ///< Shown where there are no rates.
-  std::vector<std::optional<double>> ms = {};       ///< Per scan, by sequence.
-  std::optional<double> mean_ms = std::nullopt;     ///< Over all scans.
+  std::vector<const std::vector<Rate>*> by_sequence = {};  ///< Null: not known there.
+  std::vector<std::string> status = {};                    ///< Shown where there are no rates.
+  std::vector<std::optional<double>> ms = {};              ///< Per scan, by sequence.
+  std::optional<double> mean_ms = std::nullopt;            ///< Over all scans.
   int printed_digits = 0;  ///< Decimals that were printed elsewhere; 0: rates of the run.
 
-  [[nodiscard]] std::optional<double> rate(std::size_t sequence, const std::string& name) const;
   /// The values of a rate on the sequences.
   [[nodiscard]] SegmentValues values(const std::string& name) const;
 };
 
-/// The rates of a cell's method by a protocol on each sequence of the run, and its times.
-MethodRates method_rates(const RunResults& results, const std::string& cell,
+/// The rates of a method by a protocol on each sequence of the run, and its times.
+MethodRates method_rates(const RunResults& results, const std::string& method,
                          const std::string& protocol);
 
 /// Sequences x methods x rates. A table is made of it by one layout or the other.
@@ -41,9 +40,8 @@ struct RateGrid {
   const char* no_time = "-";  ///< Stands where a time is not known.
 };
 
-/// A method's rates on a sequence, and its time if the grid has times.
-TableRow sequence_row(const RateGrid& grid, const MethodRates& method, std::size_t sequence,
-                      const TableOptions& options);
+/// A row for each method in a block for each sequence, in the order of the grid, without marks.
+TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options);
 
 /// The means of a method's rates over the sequences, and its time if the grid has times.
 TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options);

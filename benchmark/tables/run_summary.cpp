@@ -31,10 +31,10 @@ TableCell summary_cell(const RunResults& results, const std::string& cell,
 /// The methods, best first by the first protocol; the controls if there is nothing else.
 std::vector<std::string> summary_methods(const RunResults& results) {
   std::vector<std::string> methods;
-  for (const std::string& cell : results.cells) {
-    if (!results.is_control(cell)) methods.push_back(cell);
+  for (const std::string& method : results.methods) {
+    if (!results.is_control(method)) methods.push_back(method);
   }
-  if (methods.empty()) return results.cells;
+  if (methods.empty()) return results.methods;
   if (results.protocols.empty()) return methods;
   const SummaryColumn main{results.protocols.front(),
                            results.headline_of(results.protocols.front())};
@@ -83,28 +83,24 @@ std::string fitting_text(TextTable table) {
 TextTable method_summary(const RunResults& results, const std::vector<std::string>& methods) {
   const std::vector<SummaryColumn> columns = summary_columns(results);
   const bool several = results.protocols.size() > 1;
-  TextTable table{"", "method", {{"", {}}}, {}, {}};
+  TextTable table{"", "method", {{"", {}}}};
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const bool other = several && columns[i].protocol != results.protocols.front();
     table.groups[0].columns.push_back((other ? columns[i].protocol + " " : "") + columns[i].rate);
   }
   table.groups[0].columns.insert(table.groups[0].columns.end(), {kTimeHeading, "peak MiB"});
   for (const std::string& method : methods) {
-    TableRow row{shortened_middle(method, kMostName), {}, false};
+    TableRow row{shortened_middle(method, kMostName), {}};
     for (const SummaryColumn& column : columns) {
       row.cells.push_back(summary_cell(results, method, column));
     }
-    const auto ms = results.ms_per_scan(method);
-    row.cells.push_back(ms ? number_cell(*ms, 1) : TableCell{"-"});
-    const auto memory = results.peak_mib(method);
-    row.cells.push_back(memory ? number_cell(*memory, 0) : TableCell{"-"});
+    for (TableCell& cell : cost_cells(results, method, "-")) row.cells.push_back(cell);
     table.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    mark_best(column_cells(table, i), rate_spec(columns[i].rate).higher_is_better);
+    mark_best(table, i, rate_spec(columns[i].rate).higher_is_better);
   }
-  mark_best(column_cells(table, columns.size()), false);
-  mark_best(column_cells(table, columns.size() + 1), false);
+  for (const std::size_t cost : {0U, 1U}) mark_best(table, columns.size() + cost, false);
   return table;
 }
 
@@ -112,40 +108,32 @@ TextTable method_summary(const RunResults& results, const std::vector<std::strin
 TextTable sequence_summary(const RunResults& results, const std::vector<std::string>& methods) {
   const SummaryColumn main{results.protocols.front(),
                            results.headline_of(results.protocols.front())};
-  TextTable table{"", main.rate, {{"", results.sequences}}, {}, {}};
+  TextTable table{"", main.rate, {{"", results.sequences}}};
   for (const std::string& method : methods) {
-    TableRow row{shortened_middle(method, kMostName), {}, false};
+    TableRow& row = table.rows.emplace_back(TableRow{shortened_middle(method, kMostName), {}});
     for (const std::string& sequence : results.sequences) {
-      const ResultRow* found = results.find(sequence, method, main.protocol);
-      const auto value = found == nullptr ? std::nullopt : found->rate(main.rate);
-      if (value) {
-        row.cells.push_back(rate_cell({}, main.rate, *value));
-      } else {
-        row.cells.push_back({found == nullptr        ? "-"
-                             : found->status == "ok" ? "n/a"
-                                                     : found->status});
-      }
+      const auto value = results.rate(sequence, method, main.protocol, main.rate);
+      const Cell* cell = results.find(sequence, method);
+      const char* lack = cell == nullptr ? "-" : cell->ok() ? "n/a" : status_name(cell->status);
+      row.cells.push_back(value ? rate_cell({}, main.rate, *value) : TableCell{lack});
     }
-    table.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i < results.sequences.size(); ++i) {
-    mark_best(column_cells(table, i), rate_spec(main.rate).higher_is_better);
+    mark_best(table, i, rate_spec(main.rate).higher_is_better);
   }
   return table;
 }
 
 std::string failures_text(const RunResults& results) {
   std::string text;
-  for (std::size_t i = 0; i < results.failures.size() && i < kMostFailures; ++i) {
-    const FailedCell& failed = results.failures[i];
-    text += shortened_end(
-                failed.status + ": " + failed.sequence + " / " + failed.cell + ": " + failed.reason,
-                kTerminalWidth) +
-            "\n";
+  std::size_t failures = 0;
+  for (const Cell& cell : results.cells) {
+    if (cell.ok() || ++failures > kMostFailures) continue;
+    const std::string status = status_name(cell.status);
+    text += shortened_end(status + ": " + cell.title() + ": " + cell.reason, kTerminalWidth) + "\n";
   }
-  if (results.failures.size() > kMostFailures) {
-    text += "... and " + std::to_string(results.failures.size() - kMostFailures) +
-            " more cells failed\n";
+  if (failures > kMostFailures) {
+    text += "... and " + std::to_string(failures - kMostFailures) + " more cells failed\n";
   }
   if (!results.missing.empty()) {
     text += shortened_end("not run: " + join(results.missing), kTerminalWidth) + "\n";
@@ -181,8 +169,8 @@ std::string run_summary(const RunResults& results, const std::string& place) {
     if (shown == to_plain(by_sequence)) text += "\n" + shown;
   }
   text += failures_text(results);
-  const bool controls = std::any_of(results.cells.begin(), results.cells.end(),
-                                    [&](const auto& cell) { return results.is_control(cell); });
+  const bool controls = std::ranges::any_of(
+      results.methods, [&](const std::string& method) { return results.is_control(method); });
   if (controls) text += "\n" + wrapped(controls_text(results), kTerminalWidth);
   return text + (controls ? "" : "\n") +
          wrapped("More: `raymoval table " + place + "`, `raymoval report " + place + "`.",

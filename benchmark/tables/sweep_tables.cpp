@@ -10,27 +10,6 @@
 namespace raymoval {
 namespace {
 
-/// The points of a sweep.
-struct Sweep {
-  std::string name;  ///< SweptCell::sweep().
-  std::vector<const SweptCell*> points;
-};
-
-std::vector<Sweep> sweeps_of(const RunResults& results) {
-  std::vector<Sweep> sweeps;
-  for (const SweptCell& point : results.sweeps) {
-    const auto known = std::find_if(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) {
-      return sweep.name == point.sweep();
-    });
-    if (known == sweeps.end()) {
-      sweeps.push_back({point.sweep(), {&point}});
-    } else {
-      known->points.push_back(&point);
-    }
-  }
-  return sweeps;
-}
-
 MethodRates point_rates(const RunResults& results, const SweptCell& point,
                         const std::string& protocol) {
   MethodRates rates = method_rates(results, point.cell, protocol);
@@ -57,19 +36,14 @@ void mark_curve(const RateGrid& grid, TextTable& table) {
     for (std::size_t place = 0; place < grid.rates.size(); ++place) {
       const RateSpec spec = rate_spec(grid.rates[place]);
       if (spec.role != RateRole::kHeadline) continue;
-      mark_best(column_cells(table, place, block), spec.higher_is_better);
+      mark_best(table, place, spec.higher_is_better, block);
     }
   }
 }
 
 TextTable sweep_table(const RateGrid& grid, const TableOptions& options) {
-  TextTable table{grid.title, "parameters", {{"", grid.rates}}, {}, {}};
-  if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
-  for (std::size_t i = 0; i < grid.sequences.size(); ++i) {
-    for (const MethodRates& point : grid.methods) {
-      table.rows.push_back(sequence_row(grid, point, i, options));
-    }
-  }
+  TextTable table = sequence_blocks(grid, options);
+  table.corner = "parameters";
   if (grid.sequences.size() > 1) {
     for (const MethodRates& point : grid.methods) {
       table.rows.push_back(mean_row(grid, point, options));
@@ -100,7 +74,7 @@ std::vector<TextTable> sweep_tables(const RunResults& results, const TableOption
       tables.push_back(sweep_table(grid, options));
       tables.back().notes.emplace_back(
           "Each row is a point of the curve of what is kept against what is removed.");
-      for (const std::string& line : flat_sweeps(results, sweep.name)) {
+      for (const std::string& line : flat_sweeps(results, sweep)) {
         tables.back().notes.push_back(line);
       }
     }

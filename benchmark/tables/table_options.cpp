@@ -22,21 +22,21 @@ std::vector<std::string> known_rates(const RunResults& results) {
   for (const std::string& protocol : results.protocols) {
     for (const std::string& rate : results.rates_of(protocol)) add_once(known, rate);
   }
-  for (const ResultRow& row : results.rows) {
-    for (const auto& [rate, value] : row.rates) add_once(known, rate);
+  for (const Cell& cell : results.cells) {
+    for (const std::string& protocol : results.protocols) {
+      std::set<std::string> names;
+      if (const Score* score = cell.score(protocol)) {
+        for (const Rate& rate : score->rates) names.insert(rate.name);
+      }
+      for (const std::string& name : names) add_once(known, name);
+    }
   }
   return known;
 }
 
-bool gives(const RunResults& results, const std::string& protocol, const std::string& rate) {
-  return std::any_of(results.rows.begin(), results.rows.end(), [&](const ResultRow& row) {
-    return row.protocol == protocol && row.rates.contains(rate);
-  });
-}
-
 /// What a run calls its sequences and methods, and what its sweeps are of.
 std::vector<std::string> run_names(const RunResults& results) {
-  std::vector<std::string> names = results.cells;
+  std::vector<std::string> names = results.methods;
   names.insert(names.end(), results.sequences.begin(), results.sequences.end());
   for (const SweptCell& swept : results.sweeps) names.push_back(swept.of);
   return names;
@@ -96,7 +96,7 @@ std::vector<std::string> chosen_rates(const TableOptions& options, const RunResu
   if (options.rates.empty()) return results.rates_of(protocol);
   std::vector<std::string> rates;
   for (const std::string& rate : options.rates) {
-    if (gives(results, protocol, rate)) rates.push_back(rate);
+    if (results.gives(protocol, rate)) rates.push_back(rate);
   }
   return rates;
 }
@@ -183,20 +183,16 @@ void apply_display_names(const DisplayNames& names, RunResults& results,
     rename(column.heading);
   }
   for (std::string& sequence : results.sequences) rename(sequence);
-  for (std::string& cell : results.cells) rename(cell);
-  for (ResultRow& row : results.rows) {
-    rename(row.sequence);
-    rename(row.cell);
+  for (std::string& method : results.methods) rename(method);
+  for (Cell& cell : results.cells) {
+    rename(cell.sequence);
+    rename(cell.name);
   }
   for (MethodColumns& columns : results.columns) rename(columns.cell);
   for (MethodTimes& times : results.times) rename(times.cell);
   for (SweptCell& swept : results.sweeps) {
     rename(swept.cell);
     rename(swept.of);
-  }
-  for (FailedCell& failed : results.failures) {
-    rename(failed.sequence);
-    rename(failed.cell);
   }
   for (std::string& missing : results.missing) {
     const std::size_t bar = missing.find(" / ");
@@ -206,7 +202,7 @@ void apply_display_names(const DisplayNames& names, RunResults& results,
     missing = sequence + " / " + cell;
   }
   check_different(results.sequences);
-  check_different(results.cells);
+  check_different(results.methods);
 }
 
 }  // namespace raymoval

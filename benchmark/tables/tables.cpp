@@ -16,18 +16,25 @@ std::string shortened(const std::string& text) {
   return cut_text(text, kMost) + " ...";
 }
 
+/// The last line of `text` that holds anything, without what would steer a terminal.
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  text.erase(0, text.rfind('\n') + 1);
+  return printable_text(text);
+}
+
 /// What became of the cells that have no result.
 TextTable failure_table(const RunResults& results) {
   TextTable table{
-      "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}, {}, {}};
-  for (const FailedCell& failed : results.failures) {
+      "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}};
+  for (const Cell& cell : results.cells) {
+    if (cell.ok()) continue;
+    const std::string last = shortened(last_line(cell.output_tail));
     table.rows.push_back(
-        {failed.sequence + " / " + failed.cell,
-         {{failed.status}, {shortened(failed.reason)}, {shortened(failed.last_output)}},
-         false});
+        {cell.title(), {{status_name(cell.status)}, {shortened(cell.reason)}, {last}}});
   }
   for (const std::string& cell : results.missing) {
-    table.rows.push_back({cell, {{"not run"}, {""}, {""}}, false});
+    table.rows.push_back({cell, {{"not run"}, {""}, {""}}});
   }
   return table;
 }
@@ -39,18 +46,13 @@ std::string side_by_side_note(int cells) {
 
 /// Time and memory of every method, the least marked.
 std::vector<TextTable> cost_tables(const RunResults& results) {
-  TextTable table{"Time of each method", "method", {{"", {kTimeHeading, "peak MiB"}}}, {}, {}};
+  TextTable table{"Time of each method", "method", {{"", {kTimeHeading, "peak MiB"}}}};
   for (const MethodTimes& times : results.times) {
     if (results.is_swept(times.cell)) continue;
-    const auto ms = results.ms_per_scan(times.cell);
-    const auto memory = results.peak_mib(times.cell);
-    table.rows.push_back({times.cell,
-                          {ms ? number_cell(*ms, 1) : TableCell{"-"},
-                           memory ? number_cell(*memory, 0) : TableCell{"-"}},
-                          false});
+    table.rows.push_back({times.cell, cost_cells(results, times.cell, "-")});
   }
   if (table.rows.size() < 2) return {};
-  for (const std::size_t place : {0U, 1U}) mark_best(column_cells(table, place), false);
+  for (const std::size_t place : {0U, 1U}) mark_best(table, place, false);
   table.notes.push_back("Over all scans, without reading them; the most memory on any sequence.");
   int side_by_side = 1;
   for (const MethodTimes& times : results.times) {
@@ -68,7 +70,7 @@ TextTable stage_table(const MethodTimes& times) {
   const bool overlap = named > times.seconds;
   const double whole = overlap ? named : times.seconds;
   const double scans = static_cast<double>(std::max<std::size_t>(times.scans, 1));
-  TextTable table{"Time of " + times.cell, "stage", {{"", {kTimeHeading, "share in %"}}}, {}, {}};
+  TextTable table{"Time of " + times.cell, "stage", {{"", {kTimeHeading, "share in %"}}}};
   const auto add = [&](const std::string& name, double seconds, bool summary) {
     const double share = whole > 0.0 ? 100.0 * seconds / whole : 0.0;
     table.rows.push_back(
@@ -114,14 +116,19 @@ std::vector<TextTable> make_tables(const RunResults& results, const TableOptions
   for (const std::string& protocol : results.protocols) {
     append(control_tables(results, protocol, options));
   }
-  if (!results.failures.empty() || !results.missing.empty()) {
-    tables.push_back(failure_table(results));
-  }
+  TextTable failures = failure_table(results);
+  if (!failures.rows.empty()) tables.push_back(std::move(failures));
   append(cost_tables(results));
   for (const MethodTimes& times : results.times) {
     if (!results.is_swept(times.cell)) tables.push_back(stage_table(times));
   }
   return tables;
+}
+
+std::vector<TableCell> cost_cells(const RunResults& results, const std::string& method,
+                                  const char* none) {
+  return {number_or(results.ms_per_scan(method), 1, none),
+          number_or(results.peak_mib(method), 0, none)};
 }
 
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables) {

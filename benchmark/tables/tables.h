@@ -40,6 +40,10 @@ std::vector<std::string> unpublished_sequences(const RunResults& results,
 /// confidence, a table for each method. None without any.
 std::vector<TextTable> reliability_tables(const RunResults& results);
 
+/// The time per scan and the memory of a method, or `none` where they are not known.
+std::vector<TableCell> cost_cells(const RunResults& results, const std::string& method,
+                                  const char* none);
+
 /// Whether the controls are as they must be, in words.
 std::string controls_text(const RunResults& results);
 
@@ -61,6 +65,10 @@ std::vector<TextTable> ranking_tables(const RunResults& results, const TableOpti
 std::vector<TextTable> compact_column_tables(const RunResults& results);
 
 inline constexpr std::int64_t kNamedClassPoints = 100;
+
+/// The shares of moving points that stay and of static points that are removed, by range, height
+/// and class: a row for each part, a column for each method. None without columns.
+std::vector<TextTable> loss_tables(const RunResults& results);
 
 /// What methods are worth by points: precision, recall, residue, rejection and preservation; then
 /// rejection and preservation by range and by height, a row for each method, a block for all points

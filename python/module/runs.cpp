@@ -103,22 +103,27 @@ py::dict run(const std::vector<py::object>& sequences, const py::list& methods,
 }
 
 /// A row of results.csv.
-py::dict dict_of(const ResultRow& row, const std::vector<std::string>& rates) {
+py::dict dict_of(const Cell& cell, const std::string& protocol,
+                 const std::vector<std::string>& rates) {
+  const Score score = cell.score(protocol) != nullptr ? *cell.score(protocol) : Score{};
+  const Measurement measured = cell.measured.value_or(Measurement{});
   py::dict record;
-  record["sequence"] = row.sequence;
-  record["method"] = row.method;
-  record["variant"] = row.variant;
-  record["cell"] = row.cell;
-  record["protocol"] = row.protocol;
-  record["status"] = row.status;
-  record["control"] = row.control;
-  for (const std::string& rate : rates) record[py::str(rate)] = optional_number(row.rate(rate));
-  for (const auto& [rate, ends] : row.intervals) {
-    record[py::str(rate + "_low")] = ends.first;
-    record[py::str(rate + "_high")] = ends.second;
+  record["sequence"] = cell.sequence;
+  record["method"] = cell.method.name;
+  record["variant"] = cell.method.variant;
+  record["cell"] = cell.name;
+  record["protocol"] = protocol;
+  record["status"] = status_name(cell.status);
+  record["control"] = cell.method.control;
+  for (const std::string& rate : rates) record[py::str(rate)] = optional_number(score.rate(rate));
+  for (const Interval& ends : score.intervals ? score.intervals->rates : std::vector<Interval>{}) {
+    if (!ends.low) continue;
+    record[py::str(ends.name + "_low")] = *ends.low;
+    record[py::str(ends.name + "_high")] = *ends.high;
   }
-  record["seconds_per_scan"] = optional_number(row.seconds_per_scan);
-  record["peak_memory_mib"] = optional_number(row.peak_memory_mib);
+  record["seconds_per_scan"] =
+      optional_number(cell.measured ? std::optional(measured.mean_seconds) : std::nullopt);
+  record["peak_memory_mib"] = optional_number(measured.peak_memory_mib);
   return record;
 }
 
@@ -131,7 +136,11 @@ py::list load_run(const std::string& folder) {
     }
   }
   py::list rows;
-  for (const ResultRow& row : results.rows) rows.append(dict_of(row, rates));
+  for (const Cell& cell : results.cells) {
+    for (const std::string& protocol : results.protocols) {
+      rows.append(dict_of(cell, protocol, rates));
+    }
+  }
   return rows;
 }
 

@@ -3,6 +3,7 @@
 
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/checks/result_sets.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/result/results.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"

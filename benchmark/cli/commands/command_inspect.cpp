@@ -3,11 +3,37 @@
 #include <memory>
 
 #include "benchmark/cli/command.h"
-#include "benchmark/cli/commands/output_json.h"
+#include "benchmark/result/record_fields.h"
 #include "core/text.h"
+#include "datasets/inspection/inspect.h"
 #include "datasets/open_sequence.h"
 
 namespace raymoval {
+
+static const char* severity_name(Severity severity) {
+  return severity == Severity::kNote ? "note" : "finding";
+}
+
+static void describe(RecordWriter& writer, const Finding& finding) {
+  writer.field("check", finding.check);
+  writer.field("severity", severity_name(finding.severity));
+  writer.field("where", finding.where);
+  writer.field("what", finding.what);
+  writer.field("expected", finding.expected);
+  writer.field("remedy", finding.remedy);
+}
+
+static void describe(RecordWriter& writer, const InspectionReport& report) {
+  writer.field("sequence", report.sequence);
+  writer.field("layout", report.layout);
+  writer.field("scans", report.scans);
+  writer.field("scans_read", report.scans_read);
+  writer.field("sensor", report.sensor);
+  writer.field("notes", report.notes);
+  writer.field("findings", report.findings);
+  writer.field("measures", report.measures);
+}
+
 namespace {
 
 struct InspectFlags {
@@ -71,7 +97,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
                    {flags.work.thread_count(), &progress, &interrupt_flag()});
-  print(flags.json ? output_json(report) : report_text(report));
+  print(flags.json ? json_text(to_json(report)) : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
 

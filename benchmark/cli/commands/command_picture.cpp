@@ -7,8 +7,8 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/picture/maps/map_picture.h"
-#include "benchmark/picture/maps/overview_picture.h"
 #include "benchmark/run/folder/kept_run.h"
+#include "benchmark/tables/table_options.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -49,9 +49,7 @@ void check_options(const PictureFlags& flags) {
                {"--simulate", flags.simulate, {"map", "overview"}},
                {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time", "sweep"}}};
   for (const auto& rule : rules) {
-    const bool fits =
-        std::find(rule.kinds.begin(), rule.kinds.end(), flags.kind) != rule.kinds.end();
-    if (!rule.given || fits) continue;
+    if (!rule.given || is_among(rule.kinds, flags.kind)) continue;
     throw UsageError(std::string(rule.option) + " goes with --kind " + join(rule.kinds, " or ") +
                      ", not with " + flags.kind + "." +
                      (flags.kind == "map" ? " Choose cells with --only." : ""));
@@ -60,7 +58,7 @@ void check_options(const PictureFlags& flags) {
 
 void check_flags(const PictureFlags& flags) {
   if (flags.run.empty()) throw UsageError("which run? Expected `raymoval picture RUN -o FILE`.");
-  if (std::find(kinds().begin(), kinds().end(), flags.kind) == kinds().end()) {
+  if (!is_among(kinds(), flags.kind)) {
     throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
   }
   const std::string extension = is_chart(flags.kind) ? ".svg" : ".png";
@@ -92,12 +90,6 @@ WorldWindow parse_crop(const std::string& text) {
   return {values[0], values[1], values[2], values[3]};
 }
 
-int parse_size(const std::string& text) {
-  const auto value = parse_number<int>(text);
-  if (value && *value >= 50 && *value <= 8000) return *value;
-  throw UsageError("--size " + text + ": expected a whole number of pixels from 50 to 8000.");
-}
-
 /// What was given, or the only name there is. @throws UsageError if there are several
 std::string chosen(const std::string& given, const char* option,
                    const std::vector<std::string>& names) {
@@ -109,8 +101,7 @@ std::string chosen(const std::string& given, const char* option,
 const KeptCell& chosen_cell(const PictureFlags& flags, const KeptRun& run) {
   std::vector<std::string> methods;
   for (const KeptCell& cell : run.cells()) {
-    const bool known = std::find(methods.begin(), methods.end(), cell.name) != methods.end();
-    if (!cell.control && !known) methods.push_back(cell.name);
+    if (!cell.control) add_once(methods, cell.name);
   }
   return run.cell(chosen(flags.sequence, "--sequence", run.results().sequences),
                   chosen(flags.method, "--method", methods));
@@ -123,7 +114,8 @@ Canvas drawn(const PictureFlags& flags, Progress& progress) {
   if (!flags.crop.empty()) overview.crop = map.crop = parse_crop(flags.crop);
   if (!flags.resolution.empty()) map.resolution = parse_positive("--resolution", flags.resolution);
   if (!flags.size.empty()) {
-    map.panel_pixels = overview.panel_pixels = parse_size(flags.size);
+    map.panel_pixels = overview.panel_pixels =
+        parse_whole("--size", flags.size, 50, 8000, "a whole number of pixels");
   }
   const OpenContext context{flags.work.thread_count(), &progress, &interrupt_flag()};
   const KeptRun run(flags.run, flags.data, flags.simulate);

@@ -2,8 +2,9 @@
 #include <memory>
 
 #include "benchmark/cli/command.h"
-#include "benchmark/cli/commands/output_json.h"
 #include "benchmark/cli/suite_flags.h"
+#include "benchmark/result/record_fields.h"
+#include "benchmark/run/plan.h"
 
 namespace raymoval {
 namespace {
@@ -13,6 +14,21 @@ struct PlanFlags {
   std::string out;
   bool quiet = false;
 };
+
+/// A line of JSON. @param looked whether the run folder was looked at
+std::string planned_line(const PlannedCell& cell, bool looked) {
+  RecordWriter writer;
+  writer.field("cell", cell.cell.sequence + "/" + cell.cell.name);
+  writer.nullable("key", cell.key);
+  writer.field("sequence", cell.cell.sequence);
+  writer.field("name", cell.cell.name);
+  writer.field("method", cell.method);
+  writer.field("scans", cell.scans);
+  writer.field("folder", cell.folder.generic_string());
+  if (looked) writer.field("to_run", cell.to_run);
+  if (looked) writer.field("why", cell.why);
+  return writer.json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 ExitCode plan(const PlanFlags& flags) {
   const Suite suite = flags.what.resolved();
@@ -28,7 +44,7 @@ ExitCode plan(const PlanFlags& flags) {
     throw UsageError("`raymoval run` would refuse this folder: " + planned.refused);
   }
   std::string text;
-  for (const PlannedCell& cell : planned.cells) text += output_json_line(cell, !flags.out.empty());
+  for (const PlannedCell& cell : planned.cells) text += planned_line(cell, !flags.out.empty());
   print(text);
   return ExitCode::kDone;
 }

@@ -23,14 +23,6 @@ struct ReportFlags {
   WorkFlags work;
 };
 
-std::size_t point_count(const ReportFlags& flags) {
-  if (flags.points.empty()) return 1000000;
-  const auto value = parse_number<std::size_t>(flags.points);
-  if (value && *value >= 1000 && *value <= 20000000) return *value;
-  throw UsageError("--points " + flags.points +
-                   ": expected a whole number from 1000 to 20000000, such as 300000.");
-}
-
 /// Whether the page gets a 3-D view.
 /// @throws UsageError if an option is about the 3-D view and the page gets none
 bool with_points(const ReportFlags& flags) {
@@ -74,7 +66,10 @@ ExitCode report(const ReportFlags& flags) {
   const int threads = flags.work.thread_count();
   Progress progress(flags.work.style());
   PageRequest request;
-  request.points = point_count(flags);
+  if (!flags.points.empty()) {
+    request.points = static_cast<std::size_t>(parse_whole("--points", flags.points, 1000, 20000000,
+                                                          "a whole number", ", such as 300000"));
+  }
   request.with_points = with_points(flags);
   const std::filesystem::path results = find_results(flags.run);
   const KeptRun run(flags.run, flags.data, flags.simulate);

@@ -20,14 +20,8 @@ namespace {
 struct RunFlags {
   SuiteFlags what;
   std::string out, shard, cell, jobs;
-  std::vector<std::string> only;
-  bool keep_removals = false;
-  bool confidence = false;
-  bool explain = false;
-  bool collect = false;
-  bool in_process = false;
-  bool overwrite = false;
-  bool quiet = false;
+  RunOptions options;  ///< Where an option of the command is one of these.
+  bool explain = false, in_process = false, quiet = false;
 };
 
 std::string red(const std::string& text) {
@@ -49,19 +43,9 @@ void tell_problems(const RunSummary& summary, bool collect) {
   }
 }
 
-CellSelection selection_of(const RunFlags& flags) {
-  CellSelection selection;
-  selection.only = flags.only;
-  if (!flags.shard.empty()) parse_shard(flags.shard, selection);
-  return selection;
-}
-
 /// How many cells run at once; 1 if the user does not say it.
 int parse_jobs(const std::string& text) {
-  if (text.empty()) return 1;
-  const auto jobs = parse_number<int>(text);
-  if (jobs && *jobs >= 1 && *jobs <= 1024) return *jobs;
-  throw UsageError("--jobs " + text + ": expected a whole number from 1 to 1024.");
+  return text.empty() ? 1 : parse_whole("--jobs", text, 1, 1024);
 }
 
 /// What a user may not ask for at once.
@@ -69,8 +53,9 @@ void check_flags(const RunFlags& flags) {
   if (flags.out.empty()) {
     throw UsageError("--out DIR is missing: name the folder that is to hold the results.");
   }
-  const bool selects = !flags.only.empty() || !flags.shard.empty();
-  if (!flags.cell.empty() && (selects || flags.collect || flags.explain)) {
+  const bool collect = flags.options.collect;
+  const bool selects = !flags.options.selection.only.empty() || !flags.shard.empty();
+  if (!flags.cell.empty() && (selects || collect || flags.explain)) {
     throw UsageError("--cell goes without --only, --shard, --collect and --explain.");
   }
   if (parse_jobs(flags.jobs) > 1 && flags.in_process) {
@@ -79,7 +64,7 @@ void check_flags(const RunFlags& flags) {
   if (parse_jobs(flags.jobs) > 1 && !flags.cell.empty()) {
     throw UsageError("--cell runs one cell: leave --jobs out.");
   }
-  if (flags.collect && selects) {
+  if (collect && selects) {
     throw UsageError("--collect gathers all cells: leave out --only and --shard.");
   }
 }
@@ -138,24 +123,20 @@ ExitCode run(const RunFlags& flags) {
   check_flags(flags);
   warn_of_settings_without_effect(suite);
   Progress progress(progress_style(flags.quiet));
-  RunOptions options;
+  RunOptions options = flags.options;
   options.out = flags.out;
-  options.keep_removals = flags.keep_removals;
-  options.confidence = flags.confidence;
   options.progress = &progress;
   options.cancel = &interrupt_flag();
   options.isolate = !flags.in_process;
-  options.selection = selection_of(flags);
-  options.collect = flags.collect;
-  options.overwrite = flags.overwrite;
+  if (!flags.shard.empty()) parse_shard(flags.shard, options.selection);
   options.jobs = parse_jobs(flags.jobs);
   if (flags.explain) return explain(suite, options);
   const auto summary = run_asked(flags, suite, options);
   if (!summary) return ExitCode::kWorse;
   progress.end();
   if (flags.cell.empty()) print(end_of_run(flags.out));
-  tell_problems(*summary, flags.collect);
-  const bool whole = !flags.collect || summary->missing.empty();
+  tell_problems(*summary, options.collect);
+  const bool whole = !options.collect || summary->missing.empty();
   return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
 }
 
@@ -163,7 +144,7 @@ void add_options(CommandOptions& options, RunFlags& flags) {
   flags.what.add_to(options);
   options.add("--out", "DIR", flags.out, "The folder for the results");
   options.add(
-      "--only", "PATTERN", flags.only,
+      "--only", "PATTERN", flags.options.selection.only,
       "Run only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?)");
   options.add("--shard", "I/N", flags.shard,
               "Run only part I of N equal parts, to use several machines");
@@ -173,20 +154,20 @@ void add_options(CommandOptions& options, RunFlags& flags) {
   options.add("--jobs", "N", flags.jobs,
               "Run N cells at once, each with one thread, to be done sooner (default: 1). Their "
               "times are marked, since each is slower than alone");
-  options.add_flag("--collect", flags.collect,
+  options.add_flag("--collect", flags.options.collect,
                    "Run nothing; make the tables of the cells that are there");
   options.add_flag(
       "--explain", flags.explain,
       "Run no method; say which cells would be run, and why. Scenes that are not in the "
       "cache are simulated for it");
-  options.add_flag("--keep-removals", flags.keep_removals,
+  options.add_flag("--keep-removals", flags.options.keep_removals,
                    "Keep what each method removed from each scan");
-  options.add_flag("--confidence", flags.confidence,
+  options.add_flag("--confidence", flags.options.confidence,
                    "Ask the methods that can tell how sure they are of each point, and count what "
                    "comes true (see `raymoval describe METHOD`)");
   options.add_flag("--in-process", flags.in_process,
                    "Run methods in this process, for a debugger; a crash then ends the whole run");
-  options.add_flag("--overwrite", flags.overwrite,
+  options.add_flag("--overwrite", flags.options.overwrite,
                    "Replace the folder's results if they are of another suite or on other data");
   options.add_flag("--quiet", flags.quiet, "Show no progress");
 }

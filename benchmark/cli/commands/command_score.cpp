@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "benchmark/clean/clean_paths.h"
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/command.h"
-#include "benchmark/cli/commands/output_json.h"
+#include "benchmark/result/cell.h"
 #include "benchmark/result/removals/removal_files.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/run/scored_sequence.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
@@ -16,7 +23,138 @@
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
+
+/// A cleaned map that was scored.
+struct CloudRecord {
+  std::size_t points = 0;       ///< Number of points in the file.
+  std::size_t non_finite = 0;   ///< Those that were left out, see `CleanedCloud`.
+  double oracle_voxel_m = 0.0;  ///< Voxel to which the oracle's cloud was thinned; 0 if it was not.
+  std::vector<std::string> warnings;
+};
+
+/// What one protocol says.
+struct ScoredProtocol {
+  ProtocolRecord protocol;
+  ProtocolResult result;
+  /// What the oracle's cloud scores. No value where label files were scored.
+  std::optional<ProtocolResult> oracle = std::nullopt;
+};
+
+/// What `raymoval score` tells.
+struct ScoreRecord {
+  DataRecord data;
+  std::optional<CloudRecord> cloud;  ///< No value where label files were scored.
+  std::vector<ScoredProtocol> protocols;
+  ColumnRecord columns;
+};
+
+static void describe(RecordWriter& writer, const ScoredProtocol& scored) {
+  describe(writer, scored.protocol);
+  describe(writer, scored.result);
+  if (scored.oracle) writer.json["oracle"] = to_json(*scored.oracle)["rates"];
+}
+
+static void describe(RecordWriter& writer, const CloudRecord& cloud) {
+  writer.field("points", cloud.points);
+  writer.field("non_finite", cloud.non_finite);
+  writer.field("oracle_voxel_m", cloud.oracle_voxel_m);
+  writer.field("warnings", cloud.warnings);
+}
+
 namespace {
+
+/// "PR 99.422 (99.131 to 99.689)".
+std::string rate_line(const Rate& rate, const ProtocolResult& result) {
+  std::string text = "  " + rate.name + " ";
+  if (!rate.value) return text + "n/a (" + rate.undefined_reason + ")\n";
+  text += rate_text(rate.name, *rate.value);
+  if (!result.intervals) return text + "\n";
+  for (const Interval& interval : result.intervals->rates) {
+    if (interval.name != rate.name || !interval.low || !interval.high) continue;
+    text += " (" + rate_text(rate.name, *interval.low) + " to " +
+            rate_text(rate.name, *interval.high) + ")";
+  }
+  return text + "\n";
+}
+
+std::string result_text(const std::string& name, const ProtocolResult& result) {
+  std::string text = "protocol " + name + "\n";
+  for (const auto& [count, value] : result.counts) {
+    text += "  " + count + " " + std::to_string(value) + "\n";
+  }
+  for (const Rate& rate : result.rates) text += rate_line(rate, result);
+  for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
+  return text;
+}
+
+/// Columns without a band, as "precision 61.662 (25796 of 41835)".
+std::string columns_text(const std::vector<ColumnValue>& columns) {
+  std::string text = "points\n";
+  for (const ColumnValue& column : columns) {
+    if (!parse_column_name(column.name).axis.empty()) continue;
+    const auto percent = column.share.percent();
+    text += "  " + column.name + " " +
+            (percent ? fixed_text(*percent, 3) + " (" + std::to_string(column.share.part) + " of " +
+                           std::to_string(column.share.whole) + ")"
+                     : "n/a (" + column.undefined_reason + ")") +
+            "\n";
+  }
+  return text;
+}
+
+std::string cloud_text(const CloudRecord& cloud) {
+  std::string text = fmt::format(
+      "cloud of {} points: labels by nearest neighbour, points present within 0.05 m; "
+      "not to be compared with scores by index\n",
+      grouped_text(cloud.points));
+  for (const std::string& warning : cloud.warnings) text += "  warning: " + warning + "\n";
+  return text;
+}
+
+std::string oracle_text(const ProtocolResult& result) {
+  std::string text = "  the oracle's cloud, scored in the same way:";
+  for (const Rate& rate : result.rates) {
+    text += " " + rate.name + " " + (rate.value ? rate_text(rate.name, *rate.value) : "n/a");
+  }
+  return text + "\n";
+}
+
+/// Why a cloud may be better by some rates than one without a single mistake; empty if it is not.
+std::string above_oracle_text(const ProtocolResult& result, const ProtocolResult& oracle) {
+  std::vector<std::string> above;
+  for (const Rate& rate : result.rates) {
+    const auto perfect = oracle.rate(rate.name);
+    if (!rate.value || !perfect) continue;
+    const double gain = *rate.value - *perfect;
+    if (rate_spec(rate.name).higher_is_better ? gain > 0.0 : gain < 0.0) above.push_back(rate.name);
+  }
+  if (above.empty()) return "";
+  return "  " + join(above) +
+         " above the oracle's: that is no upper limit. The oracle keeps every static point; where "
+         "one stands\n  beside a moving one, that one counts as kept, and thinning puts means "
+         "where no point was.\n";
+}
+
+std::string score_text(const ScoreRecord& record) {
+  std::string text = record.cloud ? cloud_text(*record.cloud) : "";
+  for (const ScoredProtocol& scored : record.protocols) {
+    text += result_text(scored.protocol.name, scored.result);
+    if (!scored.oracle) continue;
+    text += oracle_text(*scored.oracle) + above_oracle_text(scored.result, *scored.oracle);
+  }
+  return text + columns_text(record.columns.values);
+}
+
+std::string score_json(const ScoreRecord& record) {
+  RecordWriter writer;
+  writer.schema_version();
+  writer.field("data", record.data);
+  writer.field("labels", record.cloud ? "nearest" : "index");
+  writer.field("protocols", record.protocols);
+  writer.optional("cloud", record.cloud);
+  writer.field("columns", record.columns);
+  return json_text(writer.json);
+}
 
 struct ScoreFlags {
   std::string sequence, predictions, cloud, voxel;
@@ -162,7 +300,7 @@ ExitCode score(const ScoreFlags& flags) {
   }
   progress.end();
   print(score_text(record));
-  flags.json.write(output_json(record));
+  flags.json.write(score_json(record));
   return ExitCode::kDone;
 }
 

@@ -53,17 +53,13 @@ Box label_box(const ChartPoint& at, double width, const std::vector<Box>& taken)
 
 std::vector<ChartSeries> chart_series(const RunResults& results) {
   std::vector<ChartSeries> series;
-  for (const std::string& cell : results.cells) {
+  for (const std::string& cell : results.methods) {
     if (results.is_control(cell)) continue;
     const SweptCell* point = results.swept(cell);
     const std::string name = point == nullptr ? cell : point->sweep();
-    const auto known = std::find_if(series.begin(), series.end(),
-                                    [&](const ChartSeries& item) { return item.name == name; });
-    if (known != series.end()) {
-      known->cells.push_back(cell);
-    } else {
-      series.push_back({name, {}, {cell}});
-    }
+    auto known = std::ranges::find(series, name, &ChartSeries::name);
+    if (known == series.end()) known = series.insert(known, {name, {}, {}});
+    known->cells.push_back(cell);
   }
   for (std::size_t i = 0; i < series.size(); ++i) series[i].look = series_look(i, series.size());
   return series;

@@ -24,9 +24,11 @@ struct Panels {
   Panels(const RunResults& results, const std::string& protocol) : rates(results, protocol) {
     if (!rates.kept || !rates.removed) return;
     double worst_across = rates.removed->best(), worst_up = rates.kept->best();
-    for (const ResultRow& row : results.rows) {
-      const auto removed = row.rate(rates.removed->name), kept = row.rate(rates.kept->name);
-      if (row.protocol != protocol || row.control || !removed || !kept) continue;
+    for (const Cell& cell : results.cells) {
+      const Score* score = cell.method.control ? nullptr : cell.score(protocol);
+      if (score == nullptr) continue;
+      const auto removed = score->rate(rates.removed->name), kept = score->rate(rates.kept->name);
+      if (!removed || !kept) continue;
       if (rates.removed->is_better(worst_across, *removed)) worst_across = *removed;
       if (rates.kept->is_better(worst_up, *kept)) worst_up = *kept;
       any = true;
@@ -56,11 +58,11 @@ struct Panels {
   }
 };
 
-std::string point_hint(const ResultRow& row, const ChartRates& rates) {
-  std::string text = row.cell + " on " + row.sequence;
+std::string point_hint(const Cell& cell, const Score& score, const ChartRates& rates) {
+  std::string text = cell.name + " on " + cell.sequence;
   const char* separator = ": ";
   for (const auto& rate : {rates.kept, rates.removed, rates.headline}) {
-    const auto value = rate ? row.rate(rate->name) : std::nullopt;
+    const auto value = rate ? score.rate(rate->name) : std::nullopt;
     if (!value) continue;
     text += separator + rate->name + " " + rate_text(rate->name, *value);
     separator = ", ";
@@ -110,11 +112,13 @@ void draw_panel(Chart& chart, const RunResults& results, const std::string& prot
   bool any = false;
   for (const ChartSeries& series : chart_series(results)) {
     std::vector<PlotPoint> points;
-    for (const std::string& cell : series.cells) {
-      const ResultRow* row = results.find(sequence, cell, protocol);
-      if (row == nullptr || !row->rate(across.name) || !row->rate(up.name)) continue;
-      points.push_back({*row->rate(across.name), *row->rate(up.name),
-                        point_hint(*row, panels.rates), sweep_label(results, cell)});
+    for (const std::string& method : series.cells) {
+      const auto x = results.rate(sequence, method, protocol, across.name);
+      const auto y = results.rate(sequence, method, protocol, up.name);
+      if (!x || !y) continue;
+      const Cell& cell = *results.find(sequence, method);
+      points.push_back({*x, *y, point_hint(cell, *cell.score(protocol), panels.rates),
+                        sweep_label(results, method)});
     }
     plot.draw_series(series, points, true);
     any = any || !points.empty();

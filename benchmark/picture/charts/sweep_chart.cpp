@@ -25,21 +25,17 @@ struct NumberSweep {
 
 std::vector<NumberSweep> number_sweeps(const RunResults& results) {
   std::vector<NumberSweep> sweeps;
-  for (const SweptCell& point : results.sweeps) {
-    if (point.values.size() != 1) continue;
-    const auto& [parameter, text] = point.values.front();
-    const std::optional<double> value = parse_number<double>(text);
-    if (!value) continue;
-    const std::string name = point.sweep();
-    auto sweep = std::find_if(sweeps.begin(), sweeps.end(),
-                              [&](const NumberSweep& known) { return known.name == name; });
-    if (sweep == sweeps.end()) sweep = sweeps.insert(sweep, {name, parameter, {}});
-    sweep->points.emplace_back(*value, point.cell);
+  for (const Sweep& sweep : sweeps_of(results)) {
+    if (sweep.points.front()->values.size() != 1) continue;
+    NumberSweep numbers{sweep.name, sweep.points.front()->values.front().first, {}};
+    for (const SweptCell* point : sweep.points) {
+      const auto value = parse_number<double>(point->values.front().second);
+      if (value) numbers.points.emplace_back(*value, point->cell);
+    }
+    std::ranges::sort(numbers.points);
+    if (numbers.points.empty()) continue;
+    if (numbers.points.front().first != numbers.points.back().first) sweeps.push_back(numbers);
   }
-  std::erase_if(sweeps, [](NumberSweep& sweep) {
-    std::sort(sweep.points.begin(), sweep.points.end());
-    return sweep.points.front().first == sweep.points.back().first;
-  });
   return sweeps;
 }
 
@@ -63,8 +59,7 @@ std::vector<Curve> curves_of(const RunResults& results, const NumberSweep& sweep
   for (const std::string& sequence : results.sequences) {
     curves.push_back({{sequence, series_look(curves.size() + 1, count + 1), {}}, {}});
     for (const auto& [value, cell] : sweep.points) {
-      const ResultRow* row = results.find(sequence, cell, protocol);
-      const auto there = row == nullptr ? std::nullopt : row->rate(rate);
+      const auto there = results.rate(sequence, cell, protocol, rate);
       if (there) add_point(value, *there);
     }
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "benchmark/suite/cell_selection.h"
+#include "benchmark/tables/table_options.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
@@ -22,7 +23,6 @@ constexpr double kMapAround = 30.0;
 
 /// One panel: a raster, or a reason why there is none.
 struct MapPanel {
-  std::string method;
   std::string caption;
   std::string reason;
   std::optional<TopDownRaster> raster;
@@ -73,15 +73,13 @@ std::string reason_of(const KeptCell* cell) {
 /// "PR 98.1  RR 90.0  F1 0.939" by the first protocol of the run.
 std::string caption_of(const RunResults& results, const KeptCell& cell) {
   if (results.protocols.empty()) return "";
-  const ResultRow* row = results.find(cell.sequence, cell.name, results.protocols.front());
   std::string text;
-  if (row == nullptr) return text;
   for (const RateSpec& spec : rate_specs()) {
     if (spec.role == RateRole::kMean || spec.role == RateRole::kSecondary) continue;
-    const auto found = row->rates.find(spec.name);
-    if (found == row->rates.end() || !found->second) continue;
+    const auto value = results.rate(cell.sequence, cell.name, results.protocols.front(), spec.name);
+    if (!value) continue;
     text += (text.empty() ? "" : "   ") + spec.name + " " +
-            fixed_text(*found->second, spec.unit == RateUnit::kFraction ? 3 : 1);
+            fixed_text(*value, spec.unit == RateUnit::kFraction ? 3 : 1);
   }
   return text;
 }
@@ -198,15 +196,9 @@ Canvas drawn(const std::vector<MapRow>& rows, const std::vector<std::string>& me
 }  // namespace
 
 WorldWindow window_around_way(const ScanSource& scans) {
-  WorldWindow window{1e300, -1e300, 1e300, -1e300};
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const Eigen::Vector3d at = scans.pose(i).translation();
-    window.x_min = std::min(window.x_min, at.x() - kMapAround);
-    window.x_max = std::max(window.x_max, at.x() + kMapAround);
-    window.y_min = std::min(window.y_min, at.y() - kMapAround);
-    window.y_max = std::max(window.y_max, at.y() + kMapAround);
-  }
-  return scans.size() > 0 ? window : WorldWindow{-kMapAround, kMapAround, -kMapAround, kMapAround};
+  std::vector<Eigen::Vector3d> places;
+  for (std::size_t i = 0; i < scans.size(); ++i) places.push_back(scans.pose(i).translation());
+  return window_around(places, kMapAround);
 }
 
 void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around) {
@@ -224,12 +216,9 @@ Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
   const std::vector<const KeptCell*> chosen = chosen_cells(run, options);
   check_something_kept(chosen);
   std::vector<std::string> methods, sequences;
-  const auto add = [](std::vector<std::string>& names, const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  };
   for (const KeptCell* cell : chosen) {
-    add(methods, cell->name);
-    add(sequences, cell->sequence);
+    add_once(methods, cell->name);
+    add_once(sequences, cell->sequence);
   }
   std::vector<MapRow> rows;
   for (const std::string& sequence : sequences) {
@@ -242,8 +231,8 @@ Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
       });
       const KeptCell* cell = found == chosen.end() ? nullptr : *found;
       cells.push_back(cell);
-      row.panels.push_back({method, cell != nullptr ? caption_of(run.results(), *cell) : "",
-                            reason_of(cell), std::nullopt});
+      row.panels.push_back(
+          {cell != nullptr ? caption_of(run.results(), *cell) : "", reason_of(cell), std::nullopt});
     }
     fill_row(run, cells, options, context, row);
     rows.push_back(std::move(row));

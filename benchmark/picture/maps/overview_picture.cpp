@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/picture/maps/overview_picture.h"
+#include "benchmark/picture/maps/map_picture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 
-#include "benchmark/picture/maps/map_picture.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
@@ -37,26 +36,61 @@ struct ObliqueCamera {
   double headroom = 6.0;    ///< Metres above the window's far side that fit into the picture.
   double resolution = 0.1;  ///< Metres per pixel.
 
-  [[nodiscard]] Eigen::Vector3d to_view(const Eigen::Vector3d& world) const;
-  [[nodiscard]] int width() const;
-  [[nodiscard]] int height() const;
+  [[nodiscard]] Eigen::Vector3d to_view(const Eigen::Vector3d& world) const {
+    const double c = std::cos(yaw), s = std::sin(yaw);
+    return {c * world.x() + s * world.y(), c * world.y() - s * world.x(), world.z()};
+  }
+  [[nodiscard]] int width() const {
+    return std::max(1, static_cast<int>(std::lround(window.width() / resolution)));
+  }
+  [[nodiscard]] int height() const {
+    const double high = window.height() * kSine + headroom * kCosine;
+    return std::max(1, static_cast<int>(std::lround(high / resolution)));
+  }
   /// The pixel of a point of the view's frame, and its nearness, which grows towards the viewer.
   struct Place {
     double x, y, nearness;
   };
-  [[nodiscard]] Place place(const Eigen::Vector3d& view) const;
+  [[nodiscard]] Place place(const Eigen::Vector3d& view) const {
+    const double up = (view.y() - window.y_min) * kSine + (view.z() - ground) * kCosine;
+    return {(view.x() - window.x_min) / resolution, height() - up / resolution,
+            (view.z() - ground) * kSine - (view.y() - window.y_min) * kCosine};
+  }
 };
 
 /// Draws points so that near ones hide far ones. Of equally near ones the first stays.
 class ObliqueRaster {
  public:
-  explicit ObliqueRaster(const ObliqueCamera& camera);
+  explicit ObliqueRaster(const ObliqueCamera& camera)
+      : camera_(camera),
+        width_(camera.width()),
+        height_(camera.height()),
+        pixels_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
 
   [[nodiscard]] const ObliqueCamera& camera() const { return camera_; }
   /// @param view in the view's frame
   /// @param size of the point in pixels
-  void add(const Eigen::Vector3d& view, const Colour& colour, int size);
-  void draw(Canvas& canvas, int x, int y) const;
+  void add(const Eigen::Vector3d& view, const Colour& colour, int size) {
+    const WorldWindow& window = camera_.window;
+    if (!window.contains(view) || view.x() >= window.x_max || view.y() >= window.y_max) return;
+    const ObliqueCamera::Place place = camera_.place(view);
+    const auto nearness = static_cast<float>(place.nearness);
+    const int left = static_cast<int>(std::floor(place.x)),
+              top = static_cast<int>(std::floor(place.y));
+    for (int y = std::max(0, top); y < std::min(height_, top + size); ++y) {
+      for (int x = std::max(0, left); x < std::min(width_, left + size); ++x) {
+        Pixel& pixel = pixels_[index(x, y)];
+        if (pixel.filled && !(nearness > pixel.nearness)) continue;
+        pixel = {nearness, colour, true};
+      }
+    }
+  }
+  void draw(Canvas& canvas, int left, int top) const {
+    canvas.draw_pixels(left, top, width_, height_, [&](int x, int y) {
+      const Pixel& pixel = pixels_[index(x, y)];
+      return pixel.filled ? std::optional(pixel.colour) : std::nullopt;
+    });
+  }
 
  private:
   struct Pixel {
@@ -64,63 +98,15 @@ class ObliqueRaster {
     Colour colour;
     bool filled = false;
   };
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
   ObliqueCamera camera_;
   int width_, height_;
   std::vector<Pixel> pixels_;
 };
-
-Eigen::Vector3d ObliqueCamera::to_view(const Eigen::Vector3d& world) const {
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  return {c * world.x() + s * world.y(), c * world.y() - s * world.x(), world.z()};
-}
-
-int ObliqueCamera::width() const {
-  return std::max(1, static_cast<int>(std::lround(window.width() / resolution)));
-}
-
-int ObliqueCamera::height() const {
-  const double high = window.height() * kSine + headroom * kCosine;
-  return std::max(1, static_cast<int>(std::lround(high / resolution)));
-}
-
-ObliqueCamera::Place ObliqueCamera::place(const Eigen::Vector3d& view) const {
-  const double up = (view.y() - window.y_min) * kSine + (view.z() - ground) * kCosine;
-  return {(view.x() - window.x_min) / resolution, height() - up / resolution,
-          (view.z() - ground) * kSine - (view.y() - window.y_min) * kCosine};
-}
-
-ObliqueRaster::ObliqueRaster(const ObliqueCamera& camera)
-    : camera_(camera),
-      width_(camera.width()),
-      height_(camera.height()),
-      pixels_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
-
-void ObliqueRaster::add(const Eigen::Vector3d& view, const Colour& colour, int size) {
-  if (view.x() < camera_.window.x_min || view.x() >= camera_.window.x_max ||
-      view.y() < camera_.window.y_min || view.y() >= camera_.window.y_max) {
-    return;
-  }
-  const ObliqueCamera::Place place = camera_.place(view);
-  const auto nearness = static_cast<float>(place.nearness);
-  const int left = static_cast<int>(std::floor(place.x)),
-            top = static_cast<int>(std::floor(place.y));
-  for (int y = std::max(0, top); y < std::min(height_, top + size); ++y) {
-    for (int x = std::max(0, left); x < std::min(width_, left + size); ++x) {
-      Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                             static_cast<std::size_t>(x)];
-      if (pixel.filled && !(nearness > pixel.nearness)) continue;
-      pixel = {nearness, colour, true};
-    }
-  }
-}
-
-void ObliqueRaster::draw(Canvas& canvas, int left, int top) const {
-  canvas.draw_pixels(left, top, width_, height_, [&](int x, int y) -> std::optional<Colour> {
-    const Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                 static_cast<std::size_t>(x)];
-    return pixel.filled ? std::optional(pixel.colour) : std::nullopt;
-  });
-}
 
 /// Calls `look` for each point that the overview shows.
 void for_each_point(const Sequence& sequence, const ScanSource& scans,
@@ -153,15 +139,12 @@ ObliqueCamera camera_of(const ScanSource& scans, const OverviewOptions& options)
     camera.window = *options.crop;
   } else {
     camera.yaw = yaw_of_way(scans);
-    WorldWindow& window = camera.window;
-    window = {1e300, -1e300, 1e300, -1e300};
+    std::vector<Eigen::Vector3d> places;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-      const Eigen::Vector3d at = camera.to_view(scans.pose(i).translation());
-      window.x_min = std::min(window.x_min, at.x() - kOverviewAround);
-      window.x_max = std::max(window.x_max, at.x() + kOverviewAround);
-      window.y_min = std::min(window.y_min, at.y() - kOverviewAround);
-      window.y_max = std::max(window.y_max, at.y() + kOverviewAround);
+      places.push_back(camera.to_view(scans.pose(i).translation()));
     }
+    WorldWindow& window = camera.window;
+    window = window_around(places, kOverviewAround);
     const double lacking = kLeastAspect * window.width() - window.height();
     window.y_min -= std::max(0.0, lacking) / 2.0;
     window.y_max += std::max(0.0, lacking) / 2.0;

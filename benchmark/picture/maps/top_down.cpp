@@ -4,10 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "core/progress.h"
 #include "core/text.h"
+#include "eval/columns/removal_tally.h"
 
 namespace raymoval {
 namespace {
+
+struct OutcomeLook {
+  Colour colour;
+  const char* name;
+};
+/// In the order of `Outcome`.
+constexpr std::array<OutcomeLook, kOutcomes> kLooks = {
+    {{verdict_colours::kKeptStatic, "static, kept"},
+     {verdict_colours::kTruePositive, "moving, removed"},
+     {verdict_colours::kFalsePositive, "static, removed"},
+     {verdict_colours::kFalseNegative, "moving, kept"}}};
 
 /// A moving object always stands on many static points, so it takes this many of them to outweigh
 /// one moving point.
@@ -21,6 +35,55 @@ Colour static_grey(std::uint32_t points) {
 }
 
 }  // namespace
+
+Colour outcome_colour(Outcome outcome) {
+  return kLooks[static_cast<std::size_t>(outcome)].colour;
+}
+
+const char* outcome_name(Outcome outcome) {
+  return kLooks[static_cast<std::size_t>(outcome)].name;
+}
+
+void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
+                          const std::vector<MaskStore>& masks, const std::string& task,
+                          const OpenContext& context, const VisitPoint& visit) {
+  const LabelClasses classes(sequence.label_rule);
+  const RangeLimits range_m(sequence.range_m);
+  if (context.progress != nullptr) context.progress->begin(task, scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
+    const Scan scan = scans.load(i);
+    const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
+    std::vector<Mask> removed;
+    for (const MaskStore& store : masks) removed.push_back(store.get(i));
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      const Eigen::Vector3d point = scan.points[k].cast<double>();
+      if (classes.of(labels[k]) == LabelClass::kIgnored || !range_m.contains(point.norm()) ||
+          point.head<2>().norm() < kMinimumHorizontalRange) {
+        continue;
+      }
+      const Eigen::Vector3d world = scan.T_world_sensor * point;
+      const bool moving = classes.moving(labels[k]);
+      for (std::size_t m = 0; m < masks.size(); ++m) {
+        visit(m, {world, world.z() - scan.T_world_sensor.translation().z(),
+                  outcome_of(moving, removed[m][k] != 0)});
+      }
+    }
+    if (context.progress != nullptr) context.progress->advance();
+  }
+}
+
+WorldWindow window_around(const std::vector<Eigen::Vector3d>& places, double around) {
+  if (places.empty()) return {-around, around, -around, around};
+  WorldWindow window{1e300, -1e300, 1e300, -1e300};
+  for (const Eigen::Vector3d& at : places) {
+    window.x_min = std::min(window.x_min, at.x() - around);
+    window.x_max = std::max(window.x_max, at.x() + around);
+    window.y_min = std::min(window.y_min, at.y() - around);
+    window.y_max = std::max(window.y_max, at.y() + around);
+  }
+  return window;
+}
 
 TopDownRaster::TopDownRaster(const WorldWindow& window, double resolution)
     : window_(window),

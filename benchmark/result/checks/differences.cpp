@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "benchmark/result/cell_json.h"
+#include "benchmark/result/result_fields.h"
 
 namespace raymoval {
 namespace {

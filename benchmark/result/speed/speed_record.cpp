@@ -60,7 +60,7 @@ SpeedRecord read_speed(const std::filesystem::path& file) {
 }
 
 void write_speed(const std::filesystem::path& file, const SpeedRecord& speed) {
-  write_atomically(file, json_text(written(speed)));
+  write_atomically(file, json_text(to_json(speed)));
 }
 
 namespace {

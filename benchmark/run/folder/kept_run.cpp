@@ -123,7 +123,7 @@ const KeptCell& KeptRun::cell(const std::string& sequence, const std::string& na
                      suggestion(sequence, sequences));
   }
   throw UsageError("--method " + name + ": this run has no such method." +
-                   suggestion(name, results_.cells));
+                   suggestion(name, results_.methods));
 }
 
 std::vector<const KeptCell*> KeptRun::cells_of(const std::string& sequence) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
@@ -37,32 +39,15 @@ std::string known_character(const std::string& text, std::size_t& at) {
 
 /// A character as LaTeX shows it.
 std::string escaped_character(const std::string& character) {
-  switch (character.front()) {
-    case '\\':
-      return "\\textbackslash{}";
-    case '~':
-      return "\\textasciitilde{}";
-    case '^':
-      return "\\textasciicircum{}";
-    case '`':
-      return "\\`{}";
-    case '<':
-      return "\\textless{}";
-    case '>':
-      return "\\textgreater{}";
-    case '|':
-      return "\\textbar{}";
-    case '&':
-    case '%':
-    case '$':
-    case '#':
-    case '_':
-    case '{':
-    case '}':
-      return "\\" + character;
-    default:
-      return character;
-  }
+  static const std::map<char, std::string> commands = {
+      {'\\', "\\textbackslash{}"},  {'~', "\\textasciitilde{}"},
+      {'^', "\\textasciicircum{}"}, {'`', "\\`{}"},
+      {'<', "\\textless{}"},        {'>', "\\textgreater{}"},
+      {'|', "\\textbar{}"}};
+  const auto command = commands.find(character.front());
+  if (command != commands.end()) return command->second;
+  const bool special = std::string_view("&%$#_{}").find(character) != std::string_view::npos;
+  return (special ? "\\" : "") + character;
 }
 
 std::string latex_escaped(const std::string& any_text) {
@@ -118,9 +103,17 @@ std::vector<LatexColumn> columns_of(const TextTable& table) {
 }
 
 /// Columns of a table that fit beside its row labels.
-struct ColumnBlock {
-  std::vector<LatexColumn> columns;
-};
+using ColumnBlock = std::vector<LatexColumn>;
+
+/// The columns of each group.
+std::vector<ColumnBlock> groups_of(const ColumnBlock& columns) {
+  std::vector<ColumnBlock> groups;
+  for (const LatexColumn& column : columns) {
+    if (groups.empty() || groups.back().front().group != column.group) groups.emplace_back();
+    groups.back().push_back(column);
+  }
+  return groups;
+}
 
 class LatexTable {
  public:
@@ -155,21 +148,22 @@ class LatexTable {
   }
   /// Of neighbouring columns, each group at least as wide as its heading. Long columns share what
   /// the others leave, and need 80 pt.
-  [[nodiscard]] double width(const std::vector<LatexColumn>& columns, const Measures& by) const {
+  [[nodiscard]] double width(const ColumnBlock& columns, const Measures& by) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < columns.size();) {
-      const std::string& heading = table_.groups[columns[i].group].heading;
-      double group = 0.0;
-      std::size_t end = i;
-      for (; end < columns.size() && columns[end].group == columns[i].group; ++end) {
-        const auto characters = static_cast<double>(columns[end].characters);
-        group += by.gap + (columns[end].is_long ? 80.0 : by.character * characters);
+    for (const ColumnBlock& group : groups_of(columns)) {
+      double width = 0.0;
+      for (const LatexColumn& column : group) {
+        const auto characters = static_cast<double>(column.characters);
+        width += by.gap + (column.is_long ? 80.0 : by.character * characters);
       }
-      const auto characters = static_cast<double>(heading.size());
-      sum += std::max(group, by.gap + by.character * characters);
-      i = end;
+      const auto characters = static_cast<double>(heading_of(group).size());
+      sum += std::max(width, by.gap + by.character * characters);
     }
     return sum;
+  }
+
+  [[nodiscard]] const std::string& heading_of(const ColumnBlock& group) const {
+    return table_.groups[group.front().group].heading;
   }
 
   [[nodiscard]] double room_for_columns() const {
@@ -179,14 +173,8 @@ class LatexTable {
   /// Puts groups that fit into blocks whole, larger ones column by column.
   void cut() {
     const double room = room_for_columns();
-    std::vector<std::vector<LatexColumn>> units;
-    for (const LatexColumn& column : columns_) {
-      const bool fresh = units.empty() || units.back().front().group != column.group;
-      if (fresh) units.emplace_back();
-      units.back().push_back(column);
-    }
     blocks_.emplace_back();
-    for (const std::vector<LatexColumn>& unit : units) {
+    for (const ColumnBlock& unit : groups_of(columns_)) {
       if (width(unit, measures()) <= room) {
         append(unit, room);
       } else {
@@ -194,10 +182,10 @@ class LatexTable {
       }
     }
   }
-  void append(const std::vector<LatexColumn>& unit, double room) {
-    std::vector<LatexColumn>& last = blocks_.back().columns;
+  void append(const ColumnBlock& unit, double room) {
+    ColumnBlock& last = blocks_.back();
     if (!last.empty() && width(last, measures()) + width(unit, measures()) > room) {
-      blocks_.push_back({unit});
+      blocks_.push_back(unit);
     } else {
       last.insert(last.end(), unit.begin(), unit.end());
     }
@@ -277,20 +265,20 @@ class LatexTable {
   [[nodiscard]] std::string tabular_text(const Tabular& part) const {
     const ColumnBlock& block = *part.block;
     // Behind \raggedright the usual end of a row means the end of a line.
-    const bool has_long = std::any_of(block.columns.begin(), block.columns.end(),
+    const bool has_long = std::any_of(block.begin(), block.end(),
                                       [](const LatexColumn& column) { return column.is_long; });
     const std::string end_of_row = has_long ? " \\tabularnewline\n" : " \\\\\n";
     std::string text = "\\begin{tabular}{l" + formats(block) + "}\n\\toprule\n";
     if (has_headings_) text += headings(block, end_of_row);
     text += latex_escaped(table_.corner);
-    for (const LatexColumn& column : block.columns) text += " & " + latex_escaped(column.name);
+    for (const LatexColumn& column : block) text += " & " + latex_escaped(column.name);
     text += end_of_row + "\\midrule\n";
     for (std::size_t i = part.rows.first; i < part.rows.end; ++i) {
       const TableRow& row = table_.rows[i];
       if (starts_block(i, part.rows)) {
         text += std::string(i == part.rows.first ? "" : "\\midrule\n") + "\\multicolumn{" +
-                std::to_string(block.columns.size() + 1) + "}{l}{\\textit{" +
-                latex_escaped(row.block) + "}}" + end_of_row;
+                std::to_string(block.size() + 1) + "}{l}{\\textit{" + latex_escaped(row.block) +
+                "}}" + end_of_row;
       } else if (row.summary && (i == 0 || !table_.rows[i - 1].summary)) {
         text += i == part.rows.first ? "" : "\\midrule\n";
       }
@@ -301,7 +289,7 @@ class LatexTable {
 
   [[nodiscard]] static std::string row_text(const TableRow& row, const ColumnBlock& block) {
     std::string text = latex_escaped(row.label);
-    for (const LatexColumn& column : block.columns) {
+    for (const LatexColumn& column : block) {
       text += " & " + cell_text(row.cells[column.place], column.is_long);
     }
     return text;
@@ -310,13 +298,13 @@ class LatexTable {
   [[nodiscard]] std::string formats(const ColumnBlock& block) const {
     double left = room_for_columns();
     std::size_t long_columns = 0;
-    for (const LatexColumn& column : block.columns) {
+    for (const LatexColumn& column : block) {
       long_columns += column.is_long ? 1 : 0;
       left -= measures().gap;
       if (!column.is_long) left -= measures().character * static_cast<double>(column.characters);
     }
     std::string text;
-    for (const LatexColumn& column : block.columns) {
+    for (const LatexColumn& column : block) {
       const double share = std::max(60.0, left / static_cast<double>(long_columns));
       text += column.is_long ? "p{" + fixed_text(std::floor(share), 0) + "pt}" : "r";
     }
@@ -327,18 +315,12 @@ class LatexTable {
                                      const std::string& end_of_row) const {
     std::string text, rules;
     std::size_t at = 2;
-    for (std::size_t i = 0; i < block.columns.size();) {
-      std::size_t end = i;
-      while (end < block.columns.size() && block.columns[end].group == block.columns[i].group) {
-        ++end;
-      }
-      const std::string& heading = table_.groups[block.columns[i].group].heading;
-      text +=
-          " & \\multicolumn{" + std::to_string(end - i) + "}{c}{" + latex_escaped(heading) + "}";
-      rules +=
-          "\\cmidrule(lr){" + std::to_string(at) + "-" + std::to_string(at + end - i - 1) + "}";
-      at += end - i;
-      i = end;
+    for (const ColumnBlock& group : groups_of(block)) {
+      const std::size_t end = at + group.size();
+      text += " & \\multicolumn{" + std::to_string(group.size()) + "}{c}{" +
+              latex_escaped(heading_of(group)) + "}";
+      rules += "\\cmidrule(lr){" + std::to_string(at) + "-" + std::to_string(end - 1) + "}";
+      at = end;
     }
     return text + end_of_row + rules + "\n";
   }

@@ -77,32 +77,23 @@ std::string rule_text(const std::vector<std::size_t>& widths) {
 
 }  // namespace
 
-std::string markdown_text(const std::string& text) {
-  constexpr std::string_view kSpecial = "|<*[`\\&";
+std::string markdown_text(const std::string& text, std::string_view special) {
   std::string escaped;
   for (const char c : printable_text(text)) {
-    if (kSpecial.find(c) != std::string_view::npos) escaped += '\\';
+    if (special.find(c) != std::string_view::npos) escaped += '\\';
     escaped += c;
   }
   return escaped;
 }
 
-TableCell number_cell(double number, int decimals, const std::string& more) {
+TableCell number_cell(double number, int decimals) {
   const std::string text = fixed_text(number, decimals);
   // Rounded in the same way as the text.
-  return {text + more, Mark::kNone, parse_number<double>(text)};
+  return {text, Mark::kNone, parse_number<double>(text)};
 }
 
-std::vector<TableCell*> column_cells(TextTable& table, std::size_t place) {
-  return column_cells(table, place, {0, table.rows.size()});
-}
-
-std::vector<TableCell*> column_cells(TextTable& table, std::size_t place, const RowRange& rows) {
-  std::vector<TableCell*> cells;
-  for (std::size_t i = rows.first; i < rows.end; ++i) {
-    if (!table.rows[i].summary) cells.push_back(&table.rows[i].cells[place]);
-  }
-  return cells;
+TableCell number_or(const std::optional<double>& number, int decimals, const char* none) {
+  return number ? number_cell(*number, decimals) : TableCell{none};
 }
 
 void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better) {
@@ -122,6 +113,18 @@ void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better) {
     if (rank_of(*cell) == *ranks.begin()) cell->mark = Mark::kBest;
     if (ranks.size() > 1 && rank_of(*cell) == *std::next(ranks.begin())) cell->mark = Mark::kSecond;
   }
+}
+
+void mark_best(TextTable& table, std::size_t place, bool higher_is_better, const RowRange& rows) {
+  std::vector<TableCell*> cells;
+  for (std::size_t i = rows.first; i < rows.end; ++i) {
+    if (!table.rows[i].summary) cells.push_back(&table.rows[i].cells[place]);
+  }
+  mark_best(cells, higher_is_better);
+}
+
+void mark_best(TextTable& table, std::size_t place, bool higher_is_better) {
+  mark_best(table, place, higher_is_better, {0, table.rows.size()});
 }
 
 std::vector<RowRange> blocks_of(const TextTable& table) {

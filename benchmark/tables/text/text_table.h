@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace raymoval {
@@ -17,9 +18,10 @@ struct TableCell {
   std::optional<double> value = {};
 };
 
-/// A cell with `number`, rounded to `decimals` digits behind the point. @param more stands behind
-/// it
-TableCell number_cell(double number, int decimals, const std::string& more = "");
+/// A cell with `number`, rounded to `decimals` digits behind the point.
+TableCell number_cell(double number, int decimals);
+/// The same, or a cell with the text `none` if there is no number.
+TableCell number_or(const std::optional<double>& number, int decimals, const char* none);
 
 struct TableRow {
   std::string label;
@@ -38,9 +40,9 @@ struct TableGroup {
 struct TextTable {
   std::string title;
   std::string corner;  ///< Heading of the first column.
-  std::vector<TableGroup> groups;
-  std::vector<TableRow> rows;  ///< As many cells as all groups have columns.
-  std::vector<std::string> notes;
+  std::vector<TableGroup> groups = {};
+  std::vector<TableRow> rows = {};  ///< As many cells as all groups have columns.
+  std::vector<std::string> notes = {};
 };
 
 /// Rows [first, end) of a table.
@@ -51,13 +53,12 @@ struct RowRange {
 /// The rows of each block, in their order.
 std::vector<RowRange> blocks_of(const TextTable& table);
 
-/// The cells of column `place` that are no summary, in all rows or in some.
-std::vector<TableCell*> column_cells(TextTable& table, std::size_t place);
-std::vector<TableCell*> column_cells(TextTable& table, std::size_t place, const RowRange& rows);
-
 /// Marks the best and the second best of the cells by their values; cells that look equal are
 /// marked alike. If fewer than two cells have a value, none is marked.
 void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better);
+/// The same in column `place` of the rows that are no summary, of all of them or of some.
+void mark_best(TextTable& table, std::size_t place, bool higher_is_better);
+void mark_best(TextTable& table, std::size_t place, bool higher_is_better, const RowRange& rows);
 
 /// `text` with blanks behind it up to `width` characters, or in front of it.
 std::string padded(const std::string& text, std::size_t width);
@@ -74,7 +75,7 @@ std::string wrapped(const std::string& text, std::size_t most);
 
 /// `text` for Markdown, in which nothing of it is a table, tag, link, picture, code or character
 /// entity. Control and invisible characters go the way of `printable_text`.
-std::string markdown_text(const std::string& text);
+std::string markdown_text(const std::string& text, std::string_view special = "|<*[`\\&");
 
 /// How wide text for a terminal is at most.
 inline constexpr std::size_t kTerminalWidth = 100;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "benchmark/picture/charts/plot.h"
+#include "tests/benchmark/scored_cell.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
@@ -37,27 +38,19 @@ bool is_well_formed(const std::string& xml) {
   return open.empty();
 }
 
-ResultRow row(const std::string& cell, double PR, double RR, double F1) {
-  ResultRow made;
-  made.sequence = "s";
-  made.cell = made.method = cell;
-  made.protocol = "erasor";
-  made.status = "ok";
-  made.rates = {{"PR", PR}, {"RR", RR}, {"F1", F1}};
-  return made;
+Cell cell(const std::string& method, double PR, double RR, double F1) {
+  return test::scored_cell("s", method, PR, RR, F1);
 }
 
 /// x at RR 60 and PR 90, y at 100 and 100, a control, and a cell that failed.
 RunResults two_points() {
   RunResults results;
   results.sequences = {"s"};
-  results.cells = {"noop", "x", "y", "broken"};
+  results.methods = {"noop", "x", "y", "broken"};
   results.protocols = {"erasor"};
-  results.rows = {row("noop", 100, 0, 0), row("x", 90, 60, 0.72), row("y", 100, 100, 1),
-                  row("broken", 0, 0, 0)};
-  results.rows[0].control = true;
-  results.rows[3].status = "timeout";
-  results.rows[3].rates.clear();
+  results.cells = {cell("noop", 100, 0, 0), cell("x", 90, 60, 0.72), cell("y", 100, 100, 1),
+                   test::failed_cell("s", "broken", "")};
+  results.cells[0].method.control = true;
   results.times = {{"x", 4, 2.0, 0.4, {{"cast", 1.5}}, 1}, {"y", 4, 0.4, 0.0, {}, 1}};
   return results;
 }
@@ -111,9 +104,9 @@ TEST_CASE("Lines of equal F1 go through the points that have it") {
 
 TEST_CASE("Rates of the other protocol are played against each other in the same way") {
   RunResults results = two_points();
-  for (ResultRow& one : results.rows) {
-    one.protocol = "dynamicmap";
-    if (one.status == "ok") one.rates = {{"SA", 99.0}, {"DA", 80.0}, {"HA", 88.5}};
+  for (Cell& one : results.cells) {
+    if (!one.ok()) continue;
+    one.scores = {test::score_by("dynamicmap", {{"SA", 99.0}, {"DA", 80.0}, {"HA", 88.5}})};
   }
   results.protocols = {"dynamicmap"};
   const std::string svg = pr_rr_chart(results, "dynamicmap").svg();
@@ -157,9 +150,9 @@ TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats")
 TEST_CASE("Charts take any name, and the same results give the same bytes") {
   RunResults results = two_points();
   const std::string odd = "a<b & \"c\"\x01\xFF \xC3\xA9";
-  results.cells[1] = results.rows[1].cell = results.times[0].cell = odd;
+  results.methods[1] = results.cells[1].name = results.times[0].cell = odd;
   results.sequences[0] = "<s>";
-  for (ResultRow& one : results.rows) one.sequence = "<s>";
+  for (Cell& one : results.cells) one.sequence = "<s>";
   for (const std::string& svg : {pr_rr_chart(results, "erasor").svg(), stage_chart(results).svg(),
                                  accuracy_time_chart(results, "erasor").svg()}) {
     CHECK(is_well_formed(svg));
@@ -212,7 +205,7 @@ TEST_CASE("Points of a sweep carry what they were set to, apart from each other"
   CHECK_THAT(svg, Contains("m over tau"));
   CHECK_THAT(accuracy_time_chart(results, "erasor").svg(), Contains(">0.35</text>"));
   // Where both points are one, they share a text.
-  results.rows[2].rates = results.rows[1].rates;
+  results.cells[2].scores = results.cells[1].scores;
   CHECK_THAT(pr_rr_chart(results, "erasor").svg(), Contains(">0.1, 0.35</text>"));
   CHECK(pr_rr_chart(two_points(), "erasor").svg().find("class=\"small\"") == std::string::npos);
 }
@@ -238,8 +231,8 @@ TEST_CASE("Rates over a parameter: several sequences have a mean where all have 
   RunResults results = two_points();
   results.sweeps = {{"x", "m", {{"delay", "2"}}}, {"y", "m", {{"delay", "0.5"}}}};
   results.sequences.emplace_back("t");
-  results.rows.push_back(row("y", 98, 90, 0.94));
-  results.rows.back().sequence = "t";
+  results.cells.push_back(cell("y", 98, 90, 0.94));
+  results.cells.back().sequence = "t";
   const std::string svg = sweep_chart(results, "erasor").svg();
   CHECK(is_well_formed(svg));
   CHECK_THAT(svg, Contains("<title>mean at delay 0.5: F1 0.9700</title>") &&

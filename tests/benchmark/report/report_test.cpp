@@ -7,7 +7,6 @@
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/report/html.h"
 #include "benchmark/report/pack.h"
-#include "benchmark/report/report_points.h"
 #include "benchmark/report/scene.h"
 #include "benchmark/result/removals/reasons.h"
 #include "core/error.h"
@@ -242,15 +241,7 @@ TEST_CASE("reasons go with their points, and are held to their contract", "[repo
   CHECK_THROWS_WITH(store.accept(0, {0, 2, 0}), Contains("no sentence"));
   CHECK_THROWS_WITH(store.accept(2, {0}), Contains("only 2 scans"));
   store.accept(0, {0, 1, 0});
-  const Reasons reasons = store.finish();
-
-  const test::TemporaryFolder folder;
-  CHECK(read_reason_sentences(folder.path()).empty());
-  write_reasons(folder.path(), source, reasons);
-  CHECK(read_reason_sentences(folder.path()) == std::vector<std::string>{"so", "because"});
-  CHECK(read_reasons(folder.path(), source.load(0), 2) == std::vector<std::uint8_t>{0, 1, 0});
-  CHECK(read_reasons(folder.path(), source.load(1), 2).empty());
-  CHECK_THROWS_WITH(read_reasons(folder.path(), source.load(0), 1), Contains("does not fit"));
+  CHECK(store.finish().codes[0] == std::vector<std::uint8_t>{0, 1, 0});
 }
 
 TEST_CASE("a scene tells reasons beside verdicts", "[report]") {

@@ -3,12 +3,10 @@
 #include "benchmark/result/cell_json.h"
 
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "benchmark/result/checks/differences.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/files/files.h"
@@ -23,182 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Draws the parts of random records.
-class Draw {
- public:
-  explicit Draw(unsigned seed) : random_(seed) {}
-
-  int below(int end) { return std::uniform_int_distribution(0, end - 1)(random_); }
-  bool flip() { return below(2) == 0; }
-  std::int64_t count() {
-    // At most 53 bits, which every reader of JSON holds.
-    return std::uniform_int_distribution<std::int64_t>()(random_) >> (10 + below(53));
-  }
-  /// Any finite number, also a negative zero or one with an exponent.
-  double number() {
-    for (;;) {
-      const std::uint64_t bits = random_();
-      double value = 0.0;
-      std::memcpy(&value, &bits, sizeof value);
-      if (flip()) value = static_cast<double>(below(1000)) / 8.0;
-      if (std::isfinite(value)) return value;
-    }
-  }
-  std::string text() {
-    static const char* const kPieces[] = {"town",     " ", "\"",  "\\", "\n",
-                                          "\xC3\x9F", ":", "0.5", "/"};
-    std::string text;
-    for (int i = below(5); i > 0; --i) text += kPieces[below(9)];
-    return text;
-  }
-  std::string name(std::size_t i) { return text() + std::to_string(i); }
-  /// What may name a sequence, method, protocol or suite, or nothing.
-  std::string legal_name() {
-    static const char* const kPieces[] = {"town", "\"", "\xC3\x9F", ":", "0.5", "<b>", "a b"};
-    std::string name = flip() ? "" : "n";
-    for (int i = name.empty() ? 0 : below(5); i > 0; --i) name += kPieces[below(7)];
-    return name;
-  }
-  template <class Make>
-  auto maybe(Make make) -> std::optional<decltype(make())> {
-    if (flip()) return std::nullopt;
-    return make();
-  }
-  template <class Make>
-  auto some(Make make) {
-    std::vector<decltype(make(std::size_t{}))> items;
-    for (int i = below(4); i > 0; --i) items.push_back(make(items.size()));
-    return items;
-  }
-
-  Configuration configuration() {
-    return some([&](std::size_t i) -> std::pair<std::string, ParameterValue> {
-      switch (below(4)) {
-        case 0:
-          return {name(i), flip()};
-        case 1:
-          return {name(i), count()};
-        case 2:
-          return {name(i), number()};
-        default:
-          return {name(i), text()};
-      }
-    });
-  }
-  DataRecord data() {
-    DataRecord data{legal_name(), text(), text(), text(), static_cast<std::size_t>(below(5000)),
-                    text(),       text(), text(), text(), text()};
-    data.scan_period_s = maybe([&] { return number(); });
-    data.range_m.min = number();
-    if (flip()) data.range_m.max = std::min(number(), 1e299);
-    data.drop_ego = maybe([&] { return EgoRecord{text(), text()}; });
-    data.label_rule = maybe([&] {
-      const auto id = [&](std::size_t) { return static_cast<std::uint16_t>(below(65536)); };
-      return LabelRule{text(), some(id), some(id)};
-    });
-    data.T_sensor = text();
-    data.time_offset_s = maybe([&] { return number(); });
-    data.deskew = text();
-    data.losses = some([&](std::size_t) { return text(); });
-    data.fingerprint = text();
-    return data;
-  }
-  ProtocolRecord protocol(std::size_t i) {
-    return {legal_name(), legal_name(), name(i), configuration()};
-  }
-  Score score(std::size_t i) {
-    Score score{protocol(i)};
-    score.counts =
-        some([&](std::size_t k) { return std::pair<std::string, std::int64_t>(name(k), count()); });
-    score.rates = some([&](std::size_t k) {
-      const auto value = maybe([&] { return number(); });
-      return Rate{name(k), value, value ? "" : text()};
-    });
-    score.warnings = some([&](std::size_t) { return text(); });
-    score.intervals = maybe([&] {
-      Intervals intervals;
-      intervals.options = {below(9), number(), random_()};
-      intervals.block_scans = static_cast<std::size_t>(below(99));
-      intervals.rates = some([&](std::size_t k) {
-        const bool defined = flip();
-        return defined ? Interval{name(k), number(), number()} : Interval{name(k), {}, {}, text()};
-      });
-      return intervals;
-    });
-    score.by_scan = some([&](std::size_t k) {
-      const auto values = some([&](std::size_t) { return count(); });
-      return std::pair<std::string, std::vector<std::int64_t>>(name(k), values);
-    });
-    return score;
-  }
-  Measurement measurement() {
-    const auto maybe_number = [&] { return maybe([&] { return number(); }); };
-    Measurement measured{below(99),      number(),       maybe_number(), maybe_number(),
-                         maybe_number(), maybe_number(), number(),       number()};
-    measured.stages = some([&](std::size_t) { return StageSeconds{text(), number()}; });
-    measured.peak_memory_mib = maybe_number();
-    measured.repeats = some([&](std::size_t) { return number(); });
-    return measured;
-  }
-  Cell cell() {
-    Cell cell{legal_name(), legal_name(), text(), static_cast<CellStatus>(below(5)),
-              text(),       text()};
-    cell.method = {legal_name(), legal_name(), text(), flip(), flip(), configuration()};
-    cell.data = maybe([&] { return data(); });
-    cell.scores = some([&](std::size_t i) { return score(i); });
-    cell.columns = maybe([&] {
-      return ColumnRecord{text(), some([&](std::size_t i) {
-                            const std::int64_t whole = below(3);
-                            return ColumnValue{name(i), {count(), whole}, whole > 0 ? "" : text()};
-                          })};
-    });
-    cell.reliability = maybe([&] {
-      Reliability said;
-      for (ReliabilityBin& bin : said.bins) bin = {count(), count(), count()};
-      return said;
-    });
-    cell.masks = maybe([&] { return MaskRecord{text(), count()}; });
-    cell.measured = maybe([&] { return measurement(); });
-    return cell;
-  }
-  RunRecord run() {
-    RunRecord run{legal_name()};
-    run.sequences = some([&](std::size_t) {
-      SequenceRecord sequence{data()};
-      sequence.place = maybe([&] { return SequenceRequest{text(), {}}; });
-      return sequence;
-    });
-    run.methods = some([&](std::size_t i) {
-      return SuiteMethodRecord{legal_name(), legal_name(), name(i), configuration(), maybe([&] {
-                                 return SweepRecord{legal_name(), configuration()};
-                               })};
-    });
-    run.protocols = some([&](std::size_t i) { return protocol(i); });
-    run.controls = flip();
-    run.cells = some([&](std::size_t) { return CellName{legal_name(), legal_name()}; });
-    run.build = maybe([&] { return BuildRecord{text(), text(), text(), text(), text()}; });
-    run.machine = maybe([&] {
-      return MachineRecord{text(), below(99), maybe([&] { return count(); }), below(99)};
-    });
-    return run;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
-/// The JSON text after it was read as a record and made anew.
-template <class Read>
-std::string again(const ordered_json& json, Read read) {
-  const ordered_json parsed = ordered_json::parse(json.dump());
-  const std::string file = "file.json";
-  return to_json(read(parsed, file)).dump();
-}
-
 std::string error_of(const ordered_json& cell) {
   const std::string file = "somewhere/cell.json";
   try {
-    (void)cell_from(cell, file);
+    (void)read_as<Cell>(cell, file);
   } catch (const FieldError& error) {
     return error.what();
   }
@@ -253,20 +79,6 @@ TEST_CASE("The reference is read and written byte for byte", "[result]") {
   CHECK(read_text(folder.path() / "results.json") == read_text(file));
 }
 
-TEST_CASE("Random records have the same JSON after they were read", "[result]") {
-  for (unsigned seed = 0; seed < 300; ++seed) {
-    Draw draw(seed);
-    const ordered_json cell = to_json(draw.cell());
-    CHECK(again(cell, cell_from) == cell.dump());
-    const ordered_json run = to_json(draw.run());
-    CHECK(again(run, run_record_from) == run.dump());
-    ResultsRecord record{draw.run(), draw.flip(), {draw.text()}, {}, {draw.cell(), draw.cell()}};
-    record.missing = draw.some([&](std::size_t) { return draw.text(); });
-    const ordered_json results = to_json(record);
-    CHECK(again(results, results_from) == results.dump());
-  }
-}
-
 TEST_CASE("A field that is missing or of another type is named with its file", "[result]") {
   const ordered_json whole = full_cell();
   REQUIRE(error_of(whole).empty());
@@ -288,15 +100,6 @@ TEST_CASE("A field that is missing or of another type is named with its file", "
                  Contains("somewhere/cell.json: ") && Contains(place.back() + ": is missing"));
     }
   }
-}
-
-TEST_CASE("Rates and intervals that no cell has are refused", "[result]") {
-  ordered_json cell = full_cell();
-  cell[Pointer("/protocols/0/intervals/rates/PR")] = {1.0};
-  CHECK_THAT(error_of(cell), Contains("expected two numbers"));
-  cell = full_cell();
-  cell[Pointer("/protocols/0/rates/PR")] = "90";
-  CHECK_THAT(error_of(cell), Contains("protocols[0].rates.PR: expected a number, found \"90\""));
 }
 
 TEST_CASE("A file of another version, or a list of places that does not fit, is refused",
@@ -381,7 +184,7 @@ TEST_CASE("Files of earlier versions are read", "[result]") {
     old["data"].erase(key);
   for (const char* key : {"early", "late"}) old["measured"]["seconds_per_scan"].erase(key);
   old["protocols"][0].erase("intervals");
-  const Cell cell = cell_from(old, file);
+  const Cell cell = read_as<Cell>(old, file);
   CHECK_FALSE(cell.columns);
   CHECK(cell.data->up.empty());
   CHECK(comparison_facts(cell).count("data up") == 0);  // They took z.

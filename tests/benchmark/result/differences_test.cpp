@@ -7,6 +7,7 @@
 
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/checks/result_sets.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/result/run_record_json.h"
 #include "tests/benchmark/result/full_cell.h"
 #include "tests/benchmark/small_world.h"
@@ -18,7 +19,7 @@ using test::full_cell;
 TEST_CASE("What differs between two cells is told in words", "[result]") {
   const ordered_json json = full_cell();
   const std::string file = "cell.json";
-  const Cell cell = cell_from(json, file);
+  const Cell cell = read_as<Cell>(json, file);
   const CellIdentity same{cell.method, *cell.data, protocols_of(cell)};
   const auto difference_with = [&](auto change) {
     CellIdentity wanted = same;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/cell_json.h"
+#include "benchmark/result/result_fields.h"
 
 namespace raymoval::test {
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/cell_json.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "core/files/files.h"
@@ -32,7 +33,7 @@ std::string said_of(const char* place, const ordered_json& value) {
   ordered_json json = plain_cell();
   json[ordered_json::json_pointer(place)] = value;
   try {
-    (void)cell_from(json, "cell.json");
+    (void)read_as<Cell>(json, "cell.json");
   } catch (const FieldError& error) {
     return error.what();
   }
@@ -85,7 +86,7 @@ TEST_CASE("Values are read up to the ends of their types, and others are named",
     CHECK(found.empty() == (*said == '\0'));
     CHECK_THAT(found, Contains(said));
   }
-  CHECK_THROWS_WITH(cell_from(7, "cell.json"),
+  CHECK_THROWS_WITH(read_as<Cell>(7, "cell.json"),
                     Contains("cell.json: not the results of a run (expected an object, found 7)"));
 }
 
@@ -99,19 +100,19 @@ TEST_CASE("What is wrong with a name or a place is told with its field", "[resul
   CHECK_THROWS_WITH(run_record_from(run, "run.json"),
                     Contains("run.json: not the results of a run (places[0]: frame range 'one'"));
   // Two numbers are a list of them.
-  Cell cell = cell_from(plain_cell(), "cell.json");
+  Cell cell = read_as<Cell>(plain_cell(), "cell.json");
   cell.scores = {Score{{"erasor", "erasor", "1", {}}}};
   cell.scores[0].intervals.emplace().rates = {{"PR", 1.0, 2.0}};
   ordered_json json = to_json(cell);
   json["protocols"][0]["intervals"]["rates"]["PR"] = {{"low", 1.0}, {"high", 2.0}};
-  CHECK_THROWS_WITH(cell_from(json, "cell.json"), Contains("rates.PR: expected two numbers"));
+  CHECK_THROWS_WITH(read_as<Cell>(json, "cell.json"), Contains("rates.PR: expected two numbers"));
 }
 
 TEST_CASE("Parameters keep their types, and what is no number any more stays none", "[result]") {
   ordered_json json = plain_cell();
   json["method"]["parameters"] = {
       {"flag", true}, {"count", 3}, {"size", 3.0}, {"text", "3"}, {"infinite", nullptr}};
-  const Configuration values = cell_from(json, "cell.json").method.parameters;
+  const Configuration values = read_as<Cell>(json, "cell.json").method.parameters;
   REQUIRE(values.size() == 5);
   CHECK(std::get<bool>(values[0].second));
   CHECK(std::get<std::int64_t>(values[1].second) == 3);
@@ -138,7 +139,7 @@ TEST_CASE("Every status has a name, and no other name is one", "[result]") {
 }
 
 TEST_CASE("A cell that fails loses its scores, and says why", "[result]") {
-  Cell cell = cell_from(plain_cell(), "cell.json");
+  Cell cell = read_as<Cell>(plain_cell(), "cell.json");
   Score score;
   score.rates = {{"PR", 90.0}, {"RR", {}, "nothing moves"}};
   CHECK(score.rate("PR") == 90.0);
@@ -157,13 +158,13 @@ TEST_CASE("A cell that fails loses its scores, and says why", "[result]") {
 
 TEST_CASE("Rates that are no number are null with their reason, and so are half an interval's ends",
           "[result]") {
-  Cell cell = cell_from(plain_cell(), "cell.json");
+  Cell cell = read_as<Cell>(plain_cell(), "cell.json");
   Score score{{"erasor", "erasor", "1", {}}};
   score.rates = {{"PR", std::nan(""), "not a number"}, {"RR", {}, "nothing moves"}, {"F1", 0.5}};
   score.intervals.emplace().rates = {
       {"PR", 1.0, {}, "no high end"}, {"RR", {}, 2.0, "no low end"}, {"F1", 1.0, 2.0}};
   cell.scores = {score};
-  const Score back = cell_from(to_json(cell), "cell.json").scores.at(0);
+  const Score back = read_as<Cell>(to_json(cell), "cell.json").scores.at(0);
   CHECK_FALSE(back.rates[0].value);
   CHECK(back.rates[0].undefined_reason == "not a number");
   CHECK(back.rates[1].undefined_reason == "nothing moves");
@@ -206,7 +207,7 @@ TEST_CASE("The text of results is that of the file without its checksum", "[resu
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "results.json";
   ResultsRecord results{RunRecord{"quick"}};
-  results.cells = {cell_from(plain_cell(), "cell.json")};
+  results.cells = {read_as<Cell>(plain_cell(), "cell.json")};
   write_results(file, results);
   CHECK(read_results_text(file) == json_text(to_json(results)));
   const ResultsRecord back = read_results(file);

@@ -177,6 +177,7 @@ TEST_CASE("Reasons are written for scans that have some, and refused where they 
   const test::TwoScans scans;
   const test::TemporaryFolder folder;
   CHECK(Reasons{}.empty());
+  CHECK(read_reason_sentences(folder.path()).empty());
   write_reasons(folder.path(), scans, {{}, {{0}, {0}}});  // Without sentences there are none.
   CHECK(std::filesystem::is_empty(folder.path()));
   CHECK(read_reasons(folder.path(), scans.load(0), 2).empty());

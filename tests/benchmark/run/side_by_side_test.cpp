@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "benchmark/result/cell_json.h"
+#include "benchmark/result/result_fields.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/runner.h"

@@ -14,7 +14,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The controls, and "toy" with variants a and b and the parameters size (1) and gap (2).
+/// The controls, and "toy" with variants a and b and the parameters size (1, from 0 to 10) and gap
+/// (2), which acts on sizes above 1.
 const MethodRegistry& toy_methods() {
   static const MethodRegistry registry = [] {
     MethodRegistry methods;
@@ -23,7 +24,8 @@ const MethodRegistry& toy_methods() {
     methods.add(oracle_entry());
     MethodEntry toy = noop_entry();
     toy.name = "toy";
-    toy.parameters = {{"size", 1.0, {.minimum = 0.0, .maximum = 10.0}, {}}, {"gap", 2.0, {}, {}}};
+    toy.parameters = {{"size", 1.0, {.minimum = 0.0, .maximum = 10.0}, {}},
+                      {"gap", 2.0, {.acts_when = "size > 1"}, {}}};
     toy.variants = {{"a", "", false, {}}, {"b", "", false, {{"gap", 3.0}}}};
     methods.add(toy);
     return methods;
@@ -38,10 +40,18 @@ double value(const Suite& suite, std::size_t method, const std::string& name) {
   return -1.0;
 }
 
-Suite suite_of(const std::string& json) {
+Suite suite_of(const std::string& json, const std::string& data = "") {
   const test::TemporaryFolder folder;
   write_atomically(folder.path() / "suite.json", json);
-  return read_suite(folder.path() / "suite.json", toy_methods());
+  return read_suite(folder.path() / "suite.json", toy_methods(), data);
+}
+
+Suite suite_with(const std::string& methods) {
+  return suite_of(R"({"sequences": ["street"], "methods": [)" + methods + "]}");
+}
+
+Suite suite_on(const std::string& path, const std::string& data) {
+  return suite_of(R"({"sequences": [")" + path + R"("], "methods": ["toy"]})", data);
 }
 
 }  // namespace
@@ -186,4 +196,74 @@ TEST_CASE(
   Suite one;
   CHECK_THROWS_WITH(add_method(one, "toy:all", "", toy_methods()),
                     Contains("stands for 2 methods") && Contains("toy:a, toy:b"));
+}
+
+TEST_CASE("A sweep is a cell for each value") {
+  const Suite suite =
+      suite_with(R"({"method": "toy", "set": {"size": {"sweep": [1, 2.5]}}}, "toy")");
+  REQUIRE(suite.methods.size() == 3);
+  CHECK(suite.methods[0].name == "toy:a:size=1");
+  CHECK(suite.methods[1].name == "toy:a:size=2.5");
+  CHECK(suite.methods[1].sweep_of == "toy:a");
+  CHECK(suite.methods[1].sweep == Configuration{{"size", 2.5}});
+  CHECK(suite.methods[1].method.configuration == Configuration{{"size", 2.5}, {"gap", 2.0}});
+  CHECK(suite.methods[2].name == "toy:a");
+  CHECK(suite.methods[2].sweep.empty());
+}
+
+TEST_CASE("Two sweeps are combined, and plain values hold for all points") {
+  const Suite suite = suite_with(
+      R"({"method": "toy", "as": "t", "set": {"gap": {"sweep": [3, 4]}, "size": {"sweep": [1, 2]}}},
+         {"method": "toy", "as": "u", "set": {"gap": 7, "size": {"sweep": [1]}}})");
+  std::vector<std::string> names;
+  for (const MethodRequest& request : suite.methods) names.push_back(request.name);
+  CHECK(names == std::vector<std::string>{"t:gap=3,size=1", "t:gap=3,size=2", "t:gap=4,size=1",
+                                          "t:gap=4,size=2", "u:size=1"});
+  CHECK(suite.methods[4].method.configuration == Configuration{{"size", 1.0}, {"gap", 7.0}});
+}
+
+TEST_CASE("Slips in a sweep are named") {
+  const auto sweep = [](const std::string& value) {
+    return suite_with(R"({"method": "toy", "set": {"size": )" + value + "}}");
+  };
+  CHECK_THROWS_WITH(sweep(R"({"sweeps": [1]})"),
+                    Contains("methods[0].set.size") && Contains("Did you mean 'sweep'"));
+  CHECK_THROWS_WITH(sweep(R"({"sweep": []})"), Contains("a list of values"));
+  CHECK_THROWS_WITH(sweep(R"({"sweep": 3})"), Contains("a list of values"));
+  CHECK_THROWS_WITH(sweep(R"({"sweep": [1, 11]})"), Contains("out of range"));
+  CHECK_THROWS_WITH(sweep(R"({"sweep": [1, 1.0]})"), Contains("two methods"));
+  CHECK_THROWS_WITH(suite_with(R"({"method": "toy", "set": {"sise": {"sweep": [1]}}})"),
+                    Contains("'size'"));
+  std::string many = "0";
+  for (int i = 1; i <= 1000; ++i) many += "," + std::to_string(i / 1000.0);
+  CHECK_THROWS_WITH(sweep(R"({"sweep": [)" + many + "]}"), Contains("more than 1000"));
+  Suite suite = sweep(R"({"sweep": [1, 2]})");
+  CHECK_THROWS_WITH(apply_settings(suite, {{"toy", "size", "3"}}), Contains("sweeps"));
+  CHECK_NOTHROW(apply_settings(suite, {{"toy", "gap", "3"}}));
+}
+
+TEST_CASE("{data} stands for the data's root") {
+  CHECK(suite_on("{data}:kitti-05", "/kitti").sequences[0].path == "/kitti:kitti-05");
+  CHECK(suite_on("{data}/av2", "/kth").sequences[0].path == "/kth/av2");
+  CHECK_THROWS_WITH(suite_on("{data}:05", ""), Contains("--data ROOT"));
+  CHECK_THROWS_WITH(suite_on("street", "/kitti"), Contains("--data is given"));
+}
+
+TEST_CASE("Settings without effect are named, swept ones if they have none at any point") {
+  const std::string line = "toy:a.gap has no effect here: it acts when size > 1.";
+  CHECK(settings_without_effect(suite_with(R"("toy")")).empty());
+  CHECK(settings_without_effect(suite_with(R"({"method": "toy", "set": {"gap": 3}})")) ==
+        std::vector<std::string>{line});
+  CHECK(settings_without_effect(suite_with(R"({"method": "toy", "set": {"gap": 3, "size": 2}})"))
+            .empty());
+  CHECK(settings_without_effect(
+            suite_with(R"({"method": "toy", "set": {"gap": {"sweep": [3, 4]}}})")) ==
+        std::vector<std::string>{line});
+  // At size 2 it acts.
+  CHECK(settings_without_effect(suite_with(R"({"method": "toy", "set": {"gap": {"sweep": [3, 4]},
+                                                  "size": {"sweep": [1, 2]}}})"))
+            .empty());
+  Suite suite = suite_with(R"("toy", {"method": "toy", "as": "large", "set": {"size": 2}})");
+  apply_settings(suite, {{"toy", "gap", "3"}});
+  CHECK(settings_without_effect(suite) == std::vector<std::string>{line});
 }

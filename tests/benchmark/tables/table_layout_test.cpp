@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/result/result_fields.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/tables/cell_line.h"
 #include "benchmark/tables/run_summary.h"
@@ -10,41 +11,28 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "eval/protocol_registry.h"
+#include "tests/benchmark/scored_cell.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
+using test::failed_cell, test::timed_cell;
 
 namespace {
-
-ResultRow row(const std::string& sequence, const std::string& cell, double pr, double rr, double f1,
-              double seconds) {
-  ResultRow result;
-  result.sequence = sequence;
-  result.cell = cell;
-  result.method = cell;
-  result.protocol = "erasor";
-  result.status = "ok";
-  result.rates = {{"PR", pr}, {"RR", rr}, {"F1", f1}};
-  result.seconds_per_scan = seconds;
-  return result;
-}
 
 /// Methods x, y and z on a KITTI segment and on a simulated town; z failed in town.
 RunResults three_by_two() {
   RunResults results;
   results.name = "test";
   results.sequences = {"kitti-05", "town"};
-  results.cells = {"x", "y", "z"};
+  results.methods = {"x", "y", "z"};
   results.protocols = {"erasor"};
-  results.rows = {
-      row("kitti-05", "x", 90, 60, 0.72, 0.002), row("town", "x", 70, 100, 0.8236, 0.002),
-      row("kitti-05", "y", 80, 80, 0.8, 0.001),  row("town", "y", 50, 50, 0.5, 0.003),
-      row("kitti-05", "z", 99, 20, 0.3328, 0.5), row("town", "z", 0, 0, 0, 0)};
-  results.rows[5].status = "timeout";
-  results.rows[5].rates.clear();
-  results.rows[5].seconds_per_scan.reset();
-  results.failures = {{"town", "z", "timeout", "did not finish within 600 s", ""}};
+  results.cells = {timed_cell("kitti-05", "x", 90, 60, 0.72, 0.002),
+                   timed_cell("town", "x", 70, 100, 0.8236, 0.002),
+                   timed_cell("kitti-05", "y", 80, 80, 0.8, 0.001),
+                   timed_cell("town", "y", 50, 50, 0.5, 0.003),
+                   timed_cell("kitti-05", "z", 99, 20, 0.3328, 0.5),
+                   failed_cell("town", "z", "did not finish within 600 s")};
   results.times = {{"x", 100, 0.2, 0.0, {}, 1, 1}, {"y", 100, 0.2, 0.0, {}, 1, 1}};
   return results;
 }
@@ -159,7 +147,7 @@ TEST_CASE("Methods and sequences have the names that a user gives them") {
 
 TEST_CASE("A point of a sweep has an '=' in its name, and can have another one") {
   RunResults results = three_by_two();
-  results.cells[0] = "x:size=1";
+  results.methods[0] = "x:size=1";
   DisplayNames names;
   parse_display_names("x:size=1=small", results, names);
   CHECK(names == DisplayNames{{"x:size=1", "small"}});
@@ -184,18 +172,16 @@ TEST_CASE("Chosen cells leave their sequences and methods only") {
 
 TEST_CASE("The end of a run fits a screen for ten methods") {
   RunResults results = three_by_two();
-  results.cells.clear();
-  results.rows.clear();
+  results.methods.clear();
+  results.cells.erase(results.cells.begin(), results.cells.end() - 1);
   results.protocols = {"erasor", "dynamicmap"};
   for (int i = 0; i < 10; ++i) {
     const std::string cell = "a_method_with_a_rather_long_name:variant" + std::to_string(i);
-    results.cells.push_back(cell);
+    results.methods.push_back(cell);
     for (const std::string& sequence : results.sequences) {
-      results.rows.push_back(row(sequence, cell, 90 + i, 60, 0.7 + 0.01 * i, 0.01));
-      ResultRow other = results.rows.back();
-      other.protocol = "dynamicmap";
-      other.rates = {{"SA", 99.0}, {"DA", 98.0}, {"AA", 98.5}, {"HA", 98.4975}};
-      results.rows.push_back(other);
+      results.cells.push_back(timed_cell(sequence, cell, 90 + i, 60, 0.7 + 0.01 * i, 0.01));
+      results.cells.back().scores.push_back(test::score_by(
+          "dynamicmap", {{"SA", 99.0}, {"DA", 98.0}, {"AA", 98.5}, {"HA", 98.4975}}));
     }
   }
   const std::string text = run_summary(results, "out/run");

@@ -6,34 +6,24 @@
 #include "benchmark/tables/published_columns.h"
 #include "core/error.h"
 #include "core/files/files.h"
+#include "tests/benchmark/scored_cell.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
+using test::score_by, test::scored_cell;
 
 namespace {
-
-ResultRow row(const std::string& sequence, const std::string& cell, std::optional<double> pr,
-              std::optional<double> rr, std::optional<double> f1) {
-  ResultRow result;
-  result.sequence = sequence;
-  result.cell = cell;
-  result.method = cell;
-  result.variant = "v";
-  result.protocol = "erasor";
-  result.status = "ok";
-  result.rates = {{"PR", pr}, {"RR", rr}, {"F1", f1}};
-  return result;
-}
 
 /// Methods x and y_1 on s1 and s2; nothing moves in s2 for y_1, so its RR and F1 are undefined.
 RunResults two_by_two() {
   RunResults results;
   results.name = "test";
   results.sequences = {"s1", "s2"};
-  results.cells = {"x", "y_1"};
+  results.methods = {"x", "y_1"};
   results.protocols = {"erasor"};
-  results.rows = {row("s1", "x", 90.0, 60.0, 0.72), row("s2", "x", 70.0, 100.0, 14.0 / 17.0),
-                  row("s1", "y_1", 80.0, 80.0, 0.8), row("s2", "y_1", 50.0, {}, {})};
+  results.cells = {
+      scored_cell("s1", "x", 90.0, 60.0, 0.72), scored_cell("s2", "x", 70.0, 100.0, 14.0 / 17.0),
+      scored_cell("s1", "y_1", 80.0, 80.0, 0.8), scored_cell("s2", "y_1", 50.0, {}, {})};
   return results;
 }
 
@@ -100,7 +90,7 @@ TEST_CASE("What was said and what came true stand in a table for each method tha
 
 TEST_CASE("What is displayed alike is marked alike") {
   RunResults results = two_by_two();
-  results.rows[2].rates["PR"] = 90.0001;
+  results.cells[2].scores[0].rates[0].value = 90.0001;
   const std::vector<TextTable> tables = make_tables(results, paper_layout());
   CHECK(tables[0].rows[0].cells[0].mark == Mark::kBest);
   CHECK(tables[0].rows[0].cells[3].mark == Mark::kBest);
@@ -124,8 +114,8 @@ TEST_CASE("Markdown columns are aligned, LaTeX is escaped") {
 
 TEST_CASE("The CSV has rates to 3 decimals, F1 to 4, and nothing where undefined") {
   RunResults results = two_by_two();
-  results.rows[0].seconds_per_scan = 0.25;
-  results.rows[0].peak_memory_mib = 12.34;
+  results.cells[0].measured.emplace().mean_seconds = 0.25;
+  results.cells[0].measured->peak_memory_mib = 12.34;
   const std::string csv = results_csv(results);
   CHECK_THAT(csv, Contains("\ns1,x,v,erasor,ok,90.000,60.000,0.7200,,,,,,,,0.250000,12.3,x\n"));
   CHECK_THAT(csv, Contains("\ns2,y_1,v,erasor,ok,50.000,,,,,,,,,,,,y_1\n"));
@@ -133,7 +123,7 @@ TEST_CASE("The CSV has rates to 3 decimals, F1 to 4, and nothing where undefined
 
 TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
   RunResults results = two_by_two();
-  results.sequences[0] = results.rows[0].sequence = results.rows[2].sequence = "kitti-05";
+  results.sequences[0] = results.cells[0].sequence = results.cells[2].sequence = "kitti-05";
   const OutsideColumn paper{
       "paper", "erasor", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
   const std::vector<TextTable> tables = make_tables(results, with_papers({paper}));
@@ -183,15 +173,14 @@ namespace {
 /// Method x on s1 and s2 and y_1 on s1, by points: rates of another protocol on the same cells.
 void add_points_protocol(RunResults& results) {
   results.protocols.push_back("dynamicmap");
-  const auto add = [&](const std::string& sequence, const std::string& cell, double sa, double da) {
-    ResultRow added = row(sequence, cell, {}, {}, {});
-    added.protocol = "dynamicmap";
-    added.rates = {{"SA", sa}, {"DA", da}, {"AA", 1.0}, {"HA", 2.0 * sa * da / (sa + da)}};
-    results.rows.push_back(added);
+  const auto add = [&](std::size_t cell, double sa, double da) {
+    const double ha = 2.0 * sa * da / (sa + da);
+    results.cells[cell].scores.push_back(
+        score_by("dynamicmap", {{"SA", sa}, {"DA", da}, {"AA", 1.0}, {"HA", ha}}));
   };
-  add("s1", "x", 50.0, 50.0);
-  add("s2", "x", 40.0, 60.0);
-  add("s1", "y_1", 75.0, 25.0);
+  add(0, 50.0, 50.0);
+  add(1, 40.0, 60.0);
+  add(2, 75.0, 25.0);
 }
 
 }  // namespace
@@ -210,7 +199,7 @@ TEST_CASE("A protocol with SA and DA has a table with its columns, and can be as
   CHECK_THAT(results_csv(results),
              Contains("\ns2,x,v,dynamicmap,ok,,,,40.000,60.000,1.000,48.000"));
   choose_protocols(results, {"dynamicmap"});
-  CHECK(results.rows.size() == 3);
+  CHECK(results.protocols == std::vector<std::string>{"dynamicmap"});
   REQUIRE(make_tables(results, paper_layout()).size() == 1);
   CHECK(make_tables(results, paper_layout())[0].title == "Accuracy by protocol dynamicmap");
   CHECK_THROWS_WITH(choose_protocols(results, {"dynamicmpa"}), Contains("'dynamicmap'"));
@@ -219,10 +208,7 @@ TEST_CASE("A protocol with SA and DA has a table with its columns, and can be as
 TEST_CASE("Published numbers of a protocol stand beside those of that protocol only") {
   RunResults results = two_by_two();
   add_points_protocol(results);
-  for (ResultRow& row : results.rows) {
-    if (row.sequence == "s1") row.sequence = "kth-00";
-  }
-  results.sequences[0] = "kth-00";
+  results.sequences[0] = results.cells[0].sequence = results.cells[2].sequence = "kth-00";
   const OutsideColumn paper{"A", "erasor", {{"00", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
   const OutsideColumn kth{"B", "dynamicmap", {{"00", {{"SA", 96.76}, {"DA", 90.68}}}}};
   std::vector<TextTable> tables = make_tables(results, with_papers({paper, kth}));
@@ -236,8 +222,8 @@ TEST_CASE("Published numbers of a protocol stand beside those of that protocol o
   REQUIRE(tables[2].title == "Published, DynamicMap benchmark");
   CHECK(tables[2].rows.size() == 1);  // No mean.
   // The strict variant has the same rates by other rules.
-  for (ResultRow& row : results.rows) {
-    if (row.protocol == "dynamicmap") row.protocol = "dynamicmap-strict";
+  for (Cell& cell : results.cells) {
+    if (cell.scores.size() > 1) cell.scores[1].protocol.name = "dynamicmap-strict";
   }
   results.protocols[1] = "dynamicmap-strict";
   tables = make_tables(results, with_papers({paper, kth}));
@@ -293,7 +279,7 @@ TEST_CASE("The ranking says where protocols put the methods in another order") {
 TEST_CASE("Methods that are displayed alike share a rank") {
   RunResults results = two_by_two();
   add_points_protocol(results);
-  results.rows[2].rates["F1"] = 0.72001;
+  results.cells[2].scores[0].rates[2].value = 0.72001;
   TableOptions options;
   options.disagreements = true;
   const std::vector<TextTable> tables = ranking_tables(results, options);
@@ -316,7 +302,7 @@ TEST_CASE("Column tables name the worst classes and add sequences up") {
                        {"rejection [moving-bus]", {60, 200}},
                        {"rejection [moving-person]", {0, 99}},
                        {"preservation [road]", {99, 100}}}}};
-  results.rows[0].intervals = {{"PR", {89.0, 91.5}}, {"F1", {0.7, 0.74}}};
+  results.cells[0].scores[0].intervals.emplace().rates = {{"PR", 89.0, 91.5}, {"F1", 0.7, 0.74}};
   const std::vector<TextTable> compact = compact_column_tables(results);
   REQUIRE(compact.size() == 1);
   const std::vector<TableCell>& cells = compact[0].rows[0].cells;

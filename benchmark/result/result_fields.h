@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "benchmark/result/cell.h"
 #include "benchmark/result/record_fields.h"
+#include "benchmark/result/run_record.h"
 
 namespace raymoval {
 
-// The fields of cell.json and of its parts, in the order of the file. Only the *_json.cpp files of
-// this folder include this header.
+// The fields of cell.json, run.json, results.json and of their parts, in the order of the files.
+// `to_json` and `read_as` of record_fields.h make JSON of a record that is described here, and read
+// it again. Keys, their order and the texts of numbers are fixed: a record that is read and written
+// again has the same bytes.
 
 void describe_rates(RecordWriter& writer, const std::vector<Rate>& rates);
 void describe_rates(RecordReader& reader, std::vector<Rate>& rates);
@@ -192,6 +194,91 @@ void describe(Visitor& visitor, typename Visitor::template Of<RepeatRecord> repe
   visitor.field("repeat", repeat.number);
   visitor.field("digest", repeat.digest);
   visitor.field("measured", repeat.measured);
+}
+
+// run.json and results.json.
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<SequenceRecord> sequence) {
+  describe(visitor, sequence.data);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<SweepRecord> sweep) {
+  visitor.name("of", sweep.of);
+  visitor.field("values", sweep.values);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<SuiteMethodRecord> method) {
+  visitor.name("name", method.name);
+  visitor.name("method", method.method);
+  visitor.field("version", method.version);
+  visitor.field("parameters", method.parameters);
+  visitor.optional("sweep", method.sweep);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<CellName> cell) {
+  visitor.name("sequence", cell.sequence);
+  visitor.name("name", cell.name);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<BuildRecord> build) {
+  visitor.field("version", build.version);
+  visitor.optional("commit", build.commit);
+  visitor.optional("source_tree", build.source_tree);
+  visitor.field("compiler", build.compiler);
+  visitor.field("build_type", build.build_type);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<MachineRecord> machine) {
+  visitor.field("processor", machine.processor);
+  visitor.field("cores", machine.cores);
+  visitor.nullable("memory_gib", machine.memory_gib);
+  visitor.field("threads", machine.threads);
+  visitor.optional("jobs", machine.jobs);
+}
+
+/// Where the sequences were found, a list beside theirs.
+void describe_places(RecordWriter& writer, const std::vector<SequenceRecord>& sequences);
+void describe_places(RecordReader& reader, std::vector<SequenceRecord>& sequences);
+
+/// @param is_whole whether it is run.json, and not a part of results.json, which has no paths and
+/// has the cells themselves
+template <class Visitor>
+void describe_run(Visitor& visitor, typename Visitor::template Of<RunRecord> run, bool is_whole) {
+  visitor.schema_version();
+  visitor.nested("suite", [&](auto& suite) {
+    suite.name("name", run.suite);
+    suite.field("sequences", run.sequences);
+    suite.field("methods", run.methods);
+    suite.field("protocols", run.protocols);
+    suite.field("controls", run.controls);
+  });
+  if (is_whole) visitor.later_field("cells", run.cells);
+  visitor.nullable("build", run.build);
+  visitor.nullable("machine", run.machine);
+  if (is_whole) describe_places(visitor, run.sequences);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<RunRecord> run) {
+  describe_run(visitor, run, true);
+}
+
+template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<ResultsRecord> results) {
+  visitor.schema_version();
+  visitor.nested("run", [&](auto& part) { describe_run(part, results.run, false); });
+  visitor.nested("controls", [&](auto& controls) {
+    controls.field("checked", results.controls_checked);
+    controls.field("problems", results.control_problems);
+  });
+  visitor.optional("missing", results.missing);
+  visitor.field("cells", results.cells);
 }
 
 }  // namespace raymoval
