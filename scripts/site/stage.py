@@ -32,6 +32,7 @@ SECTIONS = (
     ("Clean a map", (
         ("Cleaning a map", "docs/clean.md"),
         ("Your data", "docs/your-data.md"),
+        ("Layouts and options", "docs/layouts.md"),
         ("Poses", "docs/poses.md"),
         ("Recipes", (("All recipes", "docs/recipes/README.md"), ("", "docs/recipes/*.md"))),
     )),
