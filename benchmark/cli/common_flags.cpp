@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/cli/command.h"
-#include "benchmark/suite/reading_options.h"
 #include "benchmark/clean/clean_paths.h"
+#include "benchmark/cli/command.h"
 #include "benchmark/run/folder/run_folder.h"
+#include "benchmark/suite/reading_options.h"
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"

@@ -33,9 +33,9 @@ class ProcessFamily {
   [[nodiscard]] std::vector<pid_t> members() const;
 
   /// Ends all members by SIGKILL, and looks for more until there is none left and none has ended
-  /// meanwhile, so that a chain of members that each start the next one and end does not escape. The
-  /// head comes last, since what its descendants leave behind is found below it. Nobody is stopped:
-  /// if this process is killed meanwhile, a stopped head could not end its family (see
+  /// meanwhile, so that a chain of members that each start the next one and end does not escape.
+  /// The head comes last, since what its descendants leave behind is found below it. Nobody is
+  /// stopped: if this process is killed meanwhile, a stopped head could not end its family (see
   /// `end_family_with_parent`). When this returns, the members have ended, but for those that the
   /// system itself holds up for more than two seconds.
   void end() const;

@@ -40,8 +40,8 @@ void for_each_pose_message(
 
 /// The frames of a recording as tf and tf_static tell of them: each has a parent, and a pose in it
 /// that is fixed or changes over time. What tf_static says holds at all times, also before it was
-/// said; what tf says holds where its messages are, even if they all say the same. Only who is whose
-/// parent is in memory.
+/// said; what tf says holds where its messages are, even if they all say the same. Only who is
+/// whose parent is in memory.
 class FrameTree {
  public:
   /// Reads all tf topics. @throws UnreadableError

@@ -66,8 +66,8 @@ void check_flags(const PictureFlags& flags) {
     throw UsageError("-o FILE" + extension + " is missing: name the picture's file.");
   }
   if (std::filesystem::path(flags.output.path).extension() != extension) {
-    throw UsageError("-o " + flags.output.path + ": --kind " + flags.kind + " makes a " + extension +
-                     " file. Give the name this ending.");
+    throw UsageError("-o " + flags.output.path + ": --kind " + flags.kind + " makes a " +
+                     extension + " file. Give the name this ending.");
   }
   check_options(flags);
   flags.output.check();

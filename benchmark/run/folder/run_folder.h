@@ -21,8 +21,8 @@ inline constexpr const char* kRunMarker = ".raymoval-run";
 /// @throws UsageError for any other folder, in which nothing is changed; DataError
 void prepare_run_folder(const std::filesystem::path& out);
 
-/// Whether a run keeps a record at this path: in its folder, or in that of a cell. A page or a picture
-/// that somebody put there is none.
+/// Whether a run keeps a record at this path: in its folder, or in that of a cell. A page or a
+/// picture that somebody put there is none.
 bool is_record_of_run(const std::filesystem::path& file);
 
 /// Removes half-written results of killed runs, by names that only runs give. The caller holds the

@@ -180,7 +180,8 @@ TEST_CASE("Files of earlier versions are read", "[result]") {
 
   ordered_json old = full_cell();
   for (const char* key : {"columns", "masks"}) old.erase(key);
-  for (const char* key : {"up", "up_source", "drop_ego", "T_sensor", "time_offset_s", "deskew", "losses"})
+  for (const char* key :
+       {"up", "up_source", "drop_ego", "T_sensor", "time_offset_s", "deskew", "losses"})
     old["data"].erase(key);
   for (const char* key : {"early", "late"}) old["measured"]["seconds_per_scan"].erase(key);
   old["protocols"][0].erase("intervals");
