@@ -51,13 +51,13 @@ def scores(program, work):
         labels.mkdir()
         (labels / "000000.label").write_bytes(b"".join(struct.pack("<I", 251 if removes(p) else 9) for p in POINTS))
         command = [program, "score", "--sequence", work / "example", "--predictions", labels, "--up", "z",
-                   "--sensor", "hdl64e", "--json", work / "score.json", "--quiet"]
+                   "--sensor", "hdl64e", "--json", work / f"score{i}.json", "--quiet"]
         for protocol in RATES:
             command += ["--protocol", protocol]
         said = subprocess.run(command, capture_output=True, text=True)
         if said.returncode != 0:
             sys.exit(f"protocol_examples.py: raymoval score: {said.stderr}")
-        found[answer] = {p["name"]: p for p in json.loads((work / "score.json").read_text())["protocols"]}
+        found[answer] = {p["name"]: p for p in json.loads((work / f"score{i}.json").read_text())["protocols"]}
     return found
 
 
