@@ -45,11 +45,16 @@ void write_cell_removals(const std::filesystem::path& removals, const MethodTask
                          const MethodAnswer& answer) {
   const ScanSource& scans = *task.sequence->scans;
   if (task.progress != nullptr) task.progress->begin("writing removals", scans.size());
-  write_removals(removals, scans, answer.masks, [&] {
-    check_cancelled(task);
-    if (task.progress != nullptr) task.progress->advance();
-  });
-  write_reasons(removals, scans, answer.reasons);
+  try {
+    write_removals(removals, scans, answer.masks, [&] {
+      check_cancelled(task);
+      if (task.progress != nullptr) task.progress->advance();
+    });
+    write_reasons(removals, scans, answer.reasons);
+  } catch (...) {
+    (void)if_whole([&] { return remove_removals(removals); });
+    throw;
+  }
 }
 
 /// @throws MethodError unless the child gave one mask for each scan

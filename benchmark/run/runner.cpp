@@ -65,6 +65,7 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   const ResultsRecord results = collected_results(opened, folder, runs.finished(), summary);
   summary.controls = results.control_problems;
   summary.flat_sweeps = flat_sweeps(shown_results(results));
+  check_run_folder_stays(options.out);
   write_result_files(options.out, results);
   return summary;
 }

@@ -11,6 +11,7 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/run_record_json.h"
+#include "benchmark/run/folder/run_folder.h"
 #include "core/process/proc_files.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
@@ -212,6 +213,7 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
       (!to_run && stored.state == StoredCell::State::kFailed)) {
     finish(index, std::move(*stored.cell), true);
   } else if (to_run) {
+    check_run_folder_stays(suite_.options().out);
     suite_.store().prepare(suite_.name(index));
     if (stored.state == StoredCell::State::kStale) {
       suite_.say(fmt::format("{} on {} is run again: {}", method.name, scored.sequence().name,
@@ -222,6 +224,7 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
     if (suite_.options().keep_removals) removals = suite_.store().new_removals(suite_.name(index));
     Cell cell = execute_cell(scored, task_for(scored, index), removals);
     mark_times(cell.measured);
+    check_run_folder_stays(suite_.options().out);
     suite_.store().keep(cell, removals);
     finish(index, std::move(cell), false);
   }

@@ -31,7 +31,11 @@ bool means_no_locks(int reason) {
 FileLock::~FileLock() {
   if (!file_.valid()) return;
   // The last one who shares it takes the file away; whoever waits looks at its name again.
-  if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0 && is_still_there()) ::unlink(path_.c_str());
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) {
+    if (is_still_there()) ::unlink(path_.c_str());
+  } else if (means_no_locks(errno)) {
+    remove_if_new();
+  }
 }
 
 FileLock::State FileLock::take(Mode mode) {
@@ -47,6 +51,7 @@ FileLock::State FileLock::take(Mode mode) {
     if (reason == EINTR) continue;
     if (reason == EWOULDBLOCK) return State::kBusy;
     if (means_no_locks(reason)) return State::kNoLocks;
+    remove_if_new();
     throw DataError(path_.string() + ": cannot be locked (" +
                     std::generic_category().message(reason) +
                     "), so that nobody knows whether another process works there. Check that the "
@@ -57,7 +62,10 @@ FileLock::State FileLock::take(Mode mode) {
 }
 
 void FileLock::open() {
-  file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
+  constexpr int kFlags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW;
+  file_ = Descriptor(::open(path_.c_str(), kFlags | O_EXCL, 0666));
+  is_new_ = file_.valid();
+  if (!is_new_) file_ = Descriptor(::open(path_.c_str(), kFlags, 0666));
   if (file_.valid()) return;
   const int reason = errno;
   // Another user's lock file; locks work on it all the same, but on some network file systems.
@@ -67,6 +75,10 @@ void FileLock::open() {
   }
   throw DataError(path_.string() + ": cannot be written (" +
                   std::generic_category().message(reason) + ").");
+}
+
+void FileLock::remove_if_new() {
+  if (is_new_ && is_still_there()) ::unlink(path_.c_str());
 }
 
 bool FileLock::is_still_there() const {

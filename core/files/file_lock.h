@@ -38,11 +38,14 @@ class FileLock {
 
  private:
   void open();
+  /// Takes away a file that was made for nothing.
+  void remove_if_new();
   [[nodiscard]] bool is_still_there() const;
   void write_holder() const;
 
   std::filesystem::path path_;
   Descriptor file_;
+  bool is_new_ = false;  ///< Whether this object made the file.
 };
 
 }  // namespace raymoval

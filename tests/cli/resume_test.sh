@@ -19,6 +19,18 @@ JSON
 run=(run suite.json --quiet --keep-removals)
 expect 0 "All controls are as they must be" "${run[@]}" --out whole
 
+# A folder that is moved away ends the run, which makes no second one in its place.
+"$raymoval" "${run[@]}" --set comb.milliseconds=300 --out moving >out.txt 2>err.txt &
+process=$!
+wait_for moving/cells/a $process
+mv moving moved
+wait $process
+code=$?
+holds "a run whose folder is moved ends with 2, not $code" test $code -eq 2
+holds "and says so" grep -q "moving: is no longer the folder of this run" err.txt
+holds "and makes no other folder" test ! -e moving/results.json
+expect 0 "All controls are as they must be" "${run[@]}" --set comb.milliseconds=300 --out moved
+
 # Killed at any moment, started again and again.
 RANDOM=5
 kills=0

@@ -20,6 +20,7 @@ TEST_CASE("A file system that says it has no locks is told from one that fails t
     INFO(reason);
     const RefusingLocks all(reason);
     CHECK(FileLock(file).take(FileLock::Mode::kExclusive) == FileLock::State::kNoLocks);
+    CHECK_FALSE(std::filesystem::exists(file));
   }
   for (const int reason : {EIO, ENOLCK, EBADF}) {
     INFO(reason);
@@ -28,6 +29,7 @@ TEST_CASE("A file system that says it has no locks is told from one that fails t
     CHECK_THROWS_WITH(
         lock.take(FileLock::Mode::kShared),
         Contains("run.lock: cannot be locked (" + std::generic_category().message(reason) + ")"));
+    CHECK_FALSE(std::filesystem::exists(file));
   }
   FileLock held(file), other(file);
   CHECK(held.take(FileLock::Mode::kExclusive) == FileLock::State::kHeld);

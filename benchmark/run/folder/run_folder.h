@@ -21,6 +21,10 @@ inline constexpr const char* kRunMarker = ".raymoval-run";
 /// @throws UsageError for any other folder, in which nothing is changed; DataError
 void prepare_run_folder(const std::filesystem::path& out);
 
+/// @throws DataError if the folder of a run is no longer at `out`, because somebody moved or
+/// removed it
+void check_run_folder_stays(const std::filesystem::path& out);
+
 /// Whether a run keeps a record at this path: in its folder, or in that of a cell. A page or a
 /// picture that somebody put there is none.
 bool is_record_of_run(const std::filesystem::path& file);
