@@ -11,6 +11,7 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/result/removals/removal_files.h"
+#include "core/files/file_kind.h"
 #include "methods/external/external.h"
 
 namespace raymoval {
@@ -45,6 +46,10 @@ void write_cell_removals(const std::filesystem::path& removals, const MethodTask
                          const MethodAnswer& answer) {
   const ScanSource& scans = *task.sequence->scans;
   if (task.progress != nullptr) task.progress->begin("writing removals", scans.size());
+  if (!has_folder(removals.parent_path())) {
+    throw DataError(removals.parent_path().string() +
+                    ": is no longer there; the folder of the run was moved or removed meanwhile.");
+  }
   try {
     write_removals(removals, scans, answer.masks, [&] {
       check_cancelled(task);
