@@ -263,7 +263,8 @@ TEST_CASE("any cut and any flipped byte gives points or a DataError", "[cloud]")
   for (const std::string& content : whole) {
     const std::string name = content.starts_with("ply") ? "x.ply" : "x.pcd";
     read_cut_and_flipped(name, content, 1, [](const std::filesystem::path& path) {
-      CHECK(read_cloud(path).points.size() <= 99);  // A flipped digit of POINTS and WIDTH at most.
+      const std::size_t points = read_cloud(path).points.size();
+      CHECK(points <= 99);  // A flipped digit of POINTS and WIDTH at most.
     });
   }
 }

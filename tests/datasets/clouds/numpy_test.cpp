@@ -228,7 +228,8 @@ TEST_CASE("cuts and flipped bytes of an archive give points or a DataError", "[n
   for (const std::string& good : {zip_of({{"a.npy", kTwoPoints, true}}),
                                   zip_of({{"a.npy", kTwoPoints, false, true}}, true)}) {
     read_cut_and_flipped("a.npz", good, 2, [](const std::filesystem::path& path) {
-      CHECK(read_records(path).size() == 2);
+      const std::size_t points = read_records(path).size();
+      CHECK(points == 2);
     });
   }
 }
