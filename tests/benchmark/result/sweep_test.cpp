@@ -120,3 +120,13 @@ TEST_CASE("Of a sweep over two parameters the one that made no difference is nam
                                  "values exactly the same points were "
                                  "removed."});
 }
+
+TEST_CASE("Parameters of a foreign run with commas in their names are told apart") {
+  RunResults results = swept_run();
+  results.sweeps = {{"x:size=1", "x", {{"a", "1"}, {"b", "2"}}},
+                    {"x:size=2", "x", {{"a, b", "1"}}}};
+  CHECK(sweeps_of(results).size() == 2);
+  results.sweeps = {{"x:size=1", "x", {{"", "1"}}}, {"x:size=2", "x", {}}};
+  CHECK(sweeps_of(results).size() == 2);
+  CHECK(flat_sweeps(results).empty());
+}
