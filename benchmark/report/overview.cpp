@@ -47,14 +47,13 @@ std::pair<std::string, std::string> best_method(const RunResults& results) {
 
 }  // namespace
 
-std::string facts_html(const ReportContent& content) {
-  const RunResults& results = *content.results;
+std::string facts_html(const ResultsRecord& record, const RunResults& results) {
   std::string html = "<dl class=\"facts\">\n";
   const auto [best, why] = best_method(results);
   if (!best.empty()) html += fact("Most accurate", best, why);
   html += fact("Methods", std::to_string(results.methods.size()), "controls included");
   std::size_t scans = 0;
-  for (const SequenceRecord& sequence : content.record->run.sequences) {
+  for (const SequenceRecord& sequence : record.run.sequences) {
     scans += sequence.data.scans;
   }
   html +=
@@ -64,7 +63,7 @@ std::string facts_html(const ReportContent& content) {
   const auto failed = std::ranges::count_if(results.cells, [](auto& cell) { return !cell.ok(); });
   html += fact("Failed cells", std::to_string(failed), failed == 0 ? "" : "see below",
                failed == 0 ? "good" : "bad");
-  const bool checked = content.record->controls_checked;
+  const bool checked = record.controls_checked;
   const bool off = !results.control_problems.empty();
   html += fact("Controls",
                !checked ? "not checked"
@@ -77,8 +76,7 @@ std::string facts_html(const ReportContent& content) {
   return html + "</dl>\n";
 }
 
-std::string methods_html(const ReportContent& content) {
-  const RunResults& results = *content.results;
+std::string methods_html(const RunResults& results) {
   TextTable table{"Each method over all sequences", "method"};
   std::vector<std::string> shown;
   for (const std::string& protocol : results.protocols) {
@@ -108,11 +106,11 @@ std::string methods_html(const ReportContent& content) {
   return html_table(table);
 }
 
-std::string accuracy_html(const ReportContent& content) {
+std::string accuracy_html(const RunResults& results, const std::vector<OutsideColumn>& published) {
   std::string html;
   TableOptions options;
-  options.outside = content.published;
-  for (const TextTable& table : make_tables(*content.results, options)) {
+  options.outside = published;
+  for (const TextTable& table : make_tables(results, options)) {
     const bool elsewhere =
         table.title.starts_with("Time of ") || table.title == "Cells without a result";
     if (elsewhere) continue;
@@ -124,7 +122,7 @@ std::string accuracy_html(const ReportContent& content) {
     }
   }
   std::string intervals;
-  for (const TextTable& table : full_column_tables(*content.results)) {
+  for (const TextTable& table : full_column_tables(results)) {
     if (table.title.starts_with("Intervals")) {
       intervals += html_table(table, TableHeight::kScrolled);
     }
@@ -135,14 +133,13 @@ std::string accuracy_html(const ReportContent& content) {
   return html;
 }
 
-std::string losses_html(const ReportContent& content) {
+std::string losses_html(const RunResults& results) {
   std::string html;
-  for (const TextTable& table : loss_tables(*content.results)) html += html_heat_table(table);
+  for (const TextTable& table : loss_tables(results)) html += html_heat_table(table);
   return html;
 }
 
-std::string cells_html(const ReportContent& content) {
-  const RunResults& results = *content.results;
+std::string cells_html(const RunResults& results) {
   TextTable table{"Every cell", "sequence", {{"", {"method", "status"}}}};
   for (const std::string& protocol : results.protocols) {
     const std::vector<std::string> rates = results.rates_of(protocol);
@@ -170,16 +167,15 @@ std::string cells_html(const ReportContent& content) {
   return html_table(table, TableHeight::kScrolled);
 }
 
-std::string confidence_html(const ReportContent& content) {
-  const Chart chart = reliability_chart(*content.results);
+std::string confidence_html(const RunResults& results) {
+  const Chart chart = reliability_chart(results);
   if (chart.empty()) return "";
   std::string html = "<div class=\"charts\">\n" + chart_html(chart) + "</div>\n";
-  for (const TextTable& table : reliability_tables(*content.results)) html += html_table(table);
+  for (const TextTable& table : reliability_tables(results)) html += html_table(table);
   return html;
 }
 
-std::string charts_html(const ReportContent& content) {
-  const RunResults& results = *content.results;
+std::string charts_html(const RunResults& results) {
   std::string html = "<div class=\"charts\">\n";
   for (const std::string& protocol : results.protocols) {
     html += chart_html(pr_rr_chart(results, protocol));

@@ -52,7 +52,7 @@ bool any_kept(const KeptRun& run, const std::string& sequence) {
 }
 
 std::size_t scans_of(const PageRequest& request, const std::string& sequence) {
-  const SequenceRecord* known = find_named(request.content.record->run.sequences, sequence);
+  const SequenceRecord* known = find_named(request.run->record().run.sequences, sequence);
   return known == nullptr ? 0 : known->data.scans;
 }
 
@@ -127,18 +127,19 @@ std::string points_html(const PageRequest& request, const Points& points) {
 }
 
 std::vector<PageSection> sections_of(const PageRequest& request, const Points& points) {
-  const ReportContent& content = request.content;
+  const ResultsRecord& record = request.run->record();
+  const RunResults& results = request.run->results();
   std::vector<PageSection> sections = {
-      {"methods", "Methods", methods_html(content)},
-      {"failures", "Failed cells", failures_html(content)},
+      {"methods", "Methods", methods_html(results)},
+      {"failures", "Failed cells", failures_html(results)},
       {"changes", "Changes", ""},
-      {"charts", "Charts", charts_html(content)},
+      {"charts", "Charts", charts_html(results)},
       {"points", "Points", points_html(request, points)},
-      {"losses", "Losses", losses_html(content)},
-      {"confidence", "Confidence", confidence_html(content)},
-      {"accuracy", "Accuracy", accuracy_html(content)},
-      {"cells", "Cells", cells_html(content)},
-      {"configuration", "Configuration", configuration_html(content, *request.methods)}};
+      {"losses", "Losses", losses_html(results)},
+      {"confidence", "Confidence", confidence_html(results)},
+      {"accuracy", "Accuracy", accuracy_html(results, request.published)},
+      {"cells", "Cells", cells_html(results)},
+      {"configuration", "Configuration", configuration_html(record, *request.methods)}};
   if (request.comparison != nullptr) {
     sections[2].html = comparison_html(*request.comparison, request.reference);
   }
@@ -228,7 +229,7 @@ bool has_page_view() {
 }
 
 Page make_page(const PageRequest& request) {
-  const RunResults& results = *request.content.results;
+  const RunResults& results = request.run->results();
   Points points;
   if (request.with_points) points = collect_points(request);
   const std::vector<PageSection> sections = sections_of(request, points);
@@ -237,7 +238,7 @@ Page make_page(const PageRequest& request) {
                      "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
                      html_name(title) + "</h1>\n<p>" + html_text(subtitle(results)) +
                      "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
-                     facts_html(request.content);
+                     facts_html(request.run->record(), results);
   for (const PageSection& section : sections) html += html_section(section);
   html += "</main>\n" + footer_html(!points.scenes.empty()) +
           scripts_html(points.scenes, points.streams) + "</body>\n</html>\n";

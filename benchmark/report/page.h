@@ -17,7 +17,7 @@ bool has_page_view();
 /// What a page is made of.
 struct PageRequest {
   const KeptRun* run = nullptr;
-  ReportContent content;
+  std::vector<OutsideColumn> published;    ///< Papers' rows; may be empty.
   const Comparison* comparison = nullptr;  ///< With a reference run; may be null.
   std::string reference;                   ///< The name of the reference run.
   const MethodRegistry* methods = nullptr;

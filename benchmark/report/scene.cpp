@@ -291,11 +291,7 @@ void MapSceneBuilder::add_point(const Eigen::Vector3d& world, bool removed) {
   const std::array<std::uint8_t, 1> verdict = {static_cast<std::uint8_t>(removed ? 1 : 0)};
   const ShownPoint shown{steps_of(scene_.T_upright_world * world), scan,
                          removed ? kRemovedId : kKeptId};
-  if (removed) {
-    removed_.add(shown, scan + 1, verdict);
-  } else {
-    kept_.add(shown, 0, verdict);
-  }
+  (removed ? removed_ : kept_).add(shown, removed ? scan + 1 : 0, verdict);
 }
 
 Scene MapSceneBuilder::finish() {

@@ -12,35 +12,28 @@
 
 namespace raymoval {
 
-/// What the sections of a report are made of.
-struct ReportContent {
-  const ResultsRecord* record = nullptr;  ///< Content of results.json.
-  const RunResults* results = nullptr;    ///< The same as tables show it.
-  std::vector<OutsideColumn> published;   ///< Papers' rows; may be empty.
-};
-
 // Each function returns the HTML below the heading of a section, or an empty text if there is
 // nothing to say.
 
 /// The few numbers at the top: cells, sequences, failures, controls.
-std::string facts_html(const ReportContent& content);
+std::string facts_html(const ResultsRecord& record, const RunResults& results);
 /// A row for each method with its means. `cells_html` has a row for every cell, and `accuracy_html`
 /// has the tables of `raymoval table`.
-std::string methods_html(const ReportContent& content);
-std::string accuracy_html(const ReportContent& content);
-std::string cells_html(const ReportContent& content);
+std::string methods_html(const RunResults& results);
+std::string accuracy_html(const RunResults& results, const std::vector<OutsideColumn>& published);
+std::string cells_html(const RunResults& results);
 /// The charts: PR against RR, accuracy against time, time of stages.
-std::string charts_html(const ReportContent& content);
+std::string charts_html(const RunResults& results);
 /// What methods said of points against what came true, as a chart and tables.
-std::string confidence_html(const ReportContent& content);
+std::string confidence_html(const RunResults& results);
 /// The shares of moving points that stay and of static points that are removed, by range, height
 /// and class.
-std::string losses_html(const ReportContent& content);
+std::string losses_html(const RunResults& results);
 /// The cells without a result, each with the reason and the end of what it printed.
-std::string failures_html(const ReportContent& content);
+std::string failures_html(const RunResults& results);
 /// What changed against a reference run called `name`.
 std::string comparison_html(const Comparison& comparison, const std::string& name);
 /// The effective parameters of each method, the sequences, protocols, program and machine.
-std::string configuration_html(const ReportContent& content, const MethodRegistry& methods);
+std::string configuration_html(const ResultsRecord& record, const MethodRegistry& methods);
 
 }  // namespace raymoval

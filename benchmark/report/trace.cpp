@@ -138,9 +138,9 @@ TextTable key_table(const ResultsRecord& results) {
 
 }  // namespace
 
-std::string failures_html(const ReportContent& content) {
+std::string failures_html(const RunResults& results) {
   std::string html;
-  for (const Cell& cell : content.record->cells) {
+  for (const Cell& cell : results.cells) {
     if (cell.ok()) continue;
     html += "<div class=\"failure\"><h3>" + html_text(cell.title()) +
             " <span class=\"badge bad\">" + status_name(cell.status) + "</span></h3>\n<p>" +
@@ -151,8 +151,8 @@ std::string failures_html(const ReportContent& content) {
     }
     html += "</div>\n";
   }
-  if (!content.results->missing.empty()) {
-    html += "<h3>Not run</h3>\n" + html_list(content.results->missing);
+  if (!results.missing.empty()) {
+    html += "<h3>Not run</h3>\n" + html_list(results.missing);
   }
   return html;
 }
@@ -185,12 +185,11 @@ std::string comparison_html(const Comparison& comparison, const std::string& nam
   return html;
 }
 
-std::string configuration_html(const ReportContent& content, const MethodRegistry& methods) {
-  const ResultsRecord& results = *content.record;
-  return methods_part(results.run, methods) + "<h3>Data and measure</h3>\n" +
-         sequences_part(results) + protocols_part(results.run) + machine_part(results.run) +
+std::string configuration_html(const ResultsRecord& record, const MethodRegistry& methods) {
+  return methods_part(record.run, methods) + "<h3>Data and measure</h3>\n" +
+         sequences_part(record) + protocols_part(record.run) + machine_part(record.run) +
          "<details><summary>Keys of the cells</summary>\n" +
-         html_table(key_table(results), TableHeight::kScrolled) + "</details>\n";
+         html_table(key_table(record), TableHeight::kScrolled) + "</details>\n";
 }
 
 }  // namespace raymoval

@@ -6,7 +6,6 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/suite/cell_selection.h"
 #include "core/text.h"
-#include "core/utf8.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -216,7 +215,10 @@ std::vector<Sweep> sweeps_of(const RunResults& results) {
   std::vector<Sweep> sweeps;
   for (const SweptCell& point : results.sweeps) {
     const std::string name = point.sweep();
-    auto sweep = std::ranges::find(sweeps, name, &Sweep::name);
+    // The name of a foreign run's parameter may hold a comma, so names alone do not tell all.
+    auto sweep = std::ranges::find_if(sweeps, [&](const Sweep& known) {
+      return known.name == name && known.points.front()->values.size() == point.values.size();
+    });
     if (sweep == sweeps.end()) sweep = sweeps.insert(sweep, {name, {}});
     sweep->points.push_back(&point);
   }

@@ -38,7 +38,7 @@ struct SweptCell {
   [[nodiscard]] std::string point() const;
 };
 
-/// The points of a sweep, which have values of the same parameters.
+/// The points of a sweep, which have as many values, of the same parameters.
 struct Sweep {
   std::string name;                      ///< SweptCell::sweep().
   std::vector<const SweptCell*> points;  ///< At least one.

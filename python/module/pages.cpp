@@ -22,7 +22,6 @@ std::pair<std::string, std::vector<std::string>> run_page(const std::string& fol
     const KeptRun run(folder, "");
     PageRequest request;
     request.run = &run;
-    request.content = {&run.record(), &run.results(), {}};
     request.methods = &MethodRegistry::built_in();
     request.with_points = has_page_view();
     request.points = points;

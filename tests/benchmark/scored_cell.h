@@ -2,6 +2,7 @@
 #pragma once
 
 #include "benchmark/result/cell.h"
+#include "benchmark/tables/text/text_table.h"
 
 namespace raymoval::test {
 
@@ -34,6 +35,20 @@ inline Cell failed_cell(const std::string& sequence, const std::string& method,
   Cell cell = scored_cell(sequence, method, {}, {}, {});
   cell.fail(CellStatus::kTimeout, reason);
   return cell;
+}
+
+/// The rows of a table as "block, label: text, text". The best value has a '*', the second a '+'.
+inline std::vector<std::string> rows_of(const TextTable& table) {
+  std::vector<std::string> rows;
+  for (const TableRow& row : table.rows) {
+    std::string line = row.block.empty() ? row.label : row.block + ", " + row.label;
+    for (const TableCell& cell : row.cells) {
+      const char* mark = cell.mark == Mark::kBest ? "*" : cell.mark == Mark::kSecond ? "+" : "";
+      line += (&cell == &row.cells.front() ? ": " : ", ") + cell.text + mark;
+    }
+    rows.push_back(line);
+  }
+  return rows;
 }
 
 }  // namespace raymoval::test

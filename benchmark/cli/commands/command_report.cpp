@@ -74,7 +74,7 @@ ExitCode report(const ReportFlags& flags) {
   const std::filesystem::path results = find_results(flags.run);
   const KeptRun run(flags.run, flags.data, flags.simulate);
   request.run = &run;
-  request.content = {&run.record(), &run.results(), papers()};
+  request.published = papers();
   std::optional<Comparison> comparison;
   if (!flags.against.empty()) {
     comparison =
