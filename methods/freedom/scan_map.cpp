@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/freedom/scan_map.h"
+#include "methods/freedom/maps.h"
 
 #include "core/scan/range_limits.h"
 

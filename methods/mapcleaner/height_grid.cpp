@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/mapcleaner/height_grid.h"
+#include "methods/mapcleaner/terrain.h"
 
 #include <algorithm>
 #include <array>

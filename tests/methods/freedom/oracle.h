@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/scan/scan_source.h"
-#include "methods/freedom/scan_map.h"
+#include "methods/freedom/maps.h"
 
 namespace raymoval::freedom_test {
 

@@ -7,7 +7,6 @@
 
 #include "core/angle.h"
 #include "core/error.h"
-#include "methods/mapcleaner/height_grid.h"
 #include "tests/methods/mapcleaner/scenes.h"
 
 namespace raymoval::mapcleaner_test {
