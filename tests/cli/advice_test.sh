@@ -33,9 +33,9 @@ expect 0 "of 2 scans read" inspect town:scans=2,sensor=vlp16 --quiet
 mkdir -p suites/town
 echo '{"sequences": ["town"], "methods": ["noop"]}' >suites/both.json
 expect 2 "suites/both.json: sequences[0]: $both" run suites/both.json --out o
-expect 0 "" picture kept -o map.png --only '*' --quiet --data town
+expect 0 "" picture kept -o map.png --overwrite --only '*' --quiet --data town
 rm -r town suites/town
-expect 2 "--data town: no such folder" picture kept -o map.png --only '*' --quiet --data town
+expect 2 "--data town: no such folder" picture kept -o map.png --overwrite --only '*' --quiet --data town
 
 # A page with points is not replaced by one without them where --data leads elsewhere.
 if [[ $view -eq 1 ]]; then
@@ -119,7 +119,7 @@ expect 2 "nowhere/a.html: $there" report kept -o nowhere/a.html
 # Slips of words, values and options without one.
 expect 2 "Did you mean 'town'" simulate twon -o o
 expect 2 "A single frame is 5:5." inspect data/05 --frames 5
-expect 2 "fits no cell of this run" picture kept -o map.png --only nothing --quiet
+expect 2 "fits no cell of this run" picture kept -o map.png --overwrite --only nothing --quiet
 expect 2 "fits no cell of this suite" run "$(suite_anywhere simulated)" --only nothing --out o
 holds "nothing was generated to find out" test -z "$(find cache -name 'highway*')"
 expect 2 "are called 'town' (data/05 and one). Run them into two folders, the second with --name NAME" \

@@ -113,12 +113,13 @@ COMMANDS = [
     Command("clean", CLEAN, {"old": "."}),
     Command("simulate", ["simulate", "world.json", "-o", "scene", "--threads", "1", "--quiet"],
             {"world.json": "world.json", "sensor.json": "sensor.json"}, once=True),
-    Command("report", ["report", "../base/run", "-o", "page.html", "--threads", "1", "--quiet"],
+    Command("report", ["report", "../base/run", "-o", "page.html", "--overwrite", "--threads", "1",
+                       "--quiet"],
             {}),
-    Command("picture", ["picture", "../base/run", "--kind", "map", "-o", "map.png", "--threads",
-                        "1", "--quiet"], {}),
+    Command("picture", ["picture", "../base/run", "--kind", "map", "-o", "map.png", "--overwrite",
+                        "--threads", "1", "--quiet"], {}),
     Command("compare", ["compare", "../base/run", "../base/half.json", "--format", "json", "-o",
-                        "moved.json"], {}),
+                        "moved.json", "--overwrite"], {}),
 ]
 
 
