@@ -195,17 +195,25 @@ for victim in run clean; do
   done
   holds "its working folder is left, in $attempt tries" compgen -G 'temporary/*'
 done
-# A second signal ends a run while it ends its method's processes.
-for attempt in 1 2 3 4 5 6; do
+# A second signal ends a run while it ends its method's processes. Among many others it takes some time to
+# find them.
+crowd=()
+for _ in $(seq 800); do
+  sleep 600 &
+  crowd+=($!)
+done
+for delay in 0.01 0.015 0.02 0.03 0.04 0.06; do
   rm -f ready
   begin "${external[@]}" --out left
   wait_for_name ready
   kill -INT $process
-  sleep 0.02$attempt
+  sleep $delay
   kill -INT $process 2>/dev/null
   wait $process 2>/dev/null
-  no_sleepers "a run that was interrupted twice, attempt $attempt"
+  no_sleepers "a run that was interrupted twice, $delay s apart"
 done
+kill "${crowd[@]}"
+wait "${crowd[@]}" 2>/dev/null
 echo "exit 3" >method/leave.sh
 expect 1 "exit code 3" "${external[@]}" --out left
 expect 1 "" clean street --frames 0:2 --method external:method/manifest.json --quiet -o left.pcd
