@@ -45,6 +45,18 @@ void say_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
             "before this one has ended.");
 }
 
+/// Does the work of a run. If its folder was moved away, this is what an error says, whatever could
+/// not be written for it.
+template <class Work>
+void work_in_folder(const std::filesystem::path& out, Work&& work) {
+  try {
+    work();
+  } catch (const DataError&) {
+    check_run_folder_stays(out);
+    throw;
+  }
+}
+
 }  // namespace
 
 RunSummary run_suite(const Suite& suite, const RunOptions& options) {
@@ -58,7 +70,7 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   write_run_record(options.out / "run.json", folder.record);
   for (const std::string& line : folder.earlier.lines()) opened.say(line);
   SequenceRuns runs(opened, folder);
-  runs.run();
+  work_in_folder(options.out, [&] { runs.run(); });
   runs.check_any_readable();
   RunSummary summary = runs.summary();
   summary.earlier = folder.earlier.kept.size();
@@ -82,7 +94,7 @@ RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std
   const FolderLock cell_lock(folder / kLockFile, FolderLock::Mode::kExclusive);
   say_if_unlocked(opened, cell_lock);
   SequenceRuns runs(opened, joined);
-  runs.run(index.sequence);
+  work_in_folder(options.out, [&] { runs.run(index.sequence); });
   return runs.summary();
 }
 

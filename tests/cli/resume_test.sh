@@ -28,7 +28,7 @@ wait $process
 code=$?
 cp err.txt said.txt
 holds "a run whose folder is moved ends with 2, not $code" test $code -eq 2
-holds "and says so" grep -q "is no longer" said.txt
+holds "and says so" grep -q "moving: is no longer the folder of this run" said.txt
 holds "and makes no other folder" test ! -e moving
 expect 0 "All controls are as they must be" "${run[@]}" --set comb.milliseconds=300 --out moved
 
