@@ -4,11 +4,20 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "eval/protocol.h"
 
 namespace raymoval {
+
+/// Marks a name as that of a protocol, since `erasor` is the name of a method too.
+inline constexpr std::string_view kProtocolPrefix = "protocol:";
+
+/// "erasor" of "protocol:erasor", and of "erasor".
+inline std::string without_protocol_prefix(const std::string& name) {
+  return name.substr(name.starts_with(kProtocolPrefix) ? kProtocolPrefix.size() : 0);
+}
 
 // The protocols that the program knows: the built-in ones, then those that a program or a test
 // registers. Everything that shows, compares or checks a rate asks here what the rate is.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_paths.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -23,18 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void throw_unreadable(const fs::path& path, const std::error_code& reason) {
-  throw UnreadableError(path.string() + ": cannot be looked at (" + reason.message() +
-                        "). Check the rights of the folders above it, and that its disk or share "
-                        "answers.");
-}
-
 /// The one way to write a path, so that two can be compared.
 fs::path plain(const fs::path& path) {
   std::error_code error;
   fs::path whole = fs::absolute(path, error);
   if (!error) whole = fs::weakly_canonical(whole, error);
-  if (error) throw_unreadable(path, error);
+  if (error) throw_cannot_look_at(path, error.value());
   return without_slash(whole);
 }
 
@@ -56,15 +47,7 @@ void check_file(const OutputPath& output, bool overwrite) {
   if (std::find(known.begin(), known.end(), path.extension().string()) == known.end()) {
     throw UsageError(path.string() + ": expected a file name that ends in " + join(known) + ".");
   }
-  check_folder_of(path);
-  const FileKind there = file_kind(path);
-  if (there == FileKind::kFolder) {
-    throw UsageError(path.string() + ": is a folder, expected a file name.");
-  }
-  if (there == FileKind::kFile && !overwrite) {
-    throw UsageError(path.string() +
-                     ": is there already; choose another name, or replace it with --overwrite.");
-  }
+  check_output_file(path, overwrite, path.string());
 }
 
 /// The files in a folder of ours, relative to it; nothing if it has no record that can be read.
@@ -155,15 +138,6 @@ void check_inputs_stay(const std::vector<fs::path>& inputs,
 }
 
 }  // namespace
-
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) {
-    if (!means_absent(errno)) throw_unreadable(path, {errno, std::generic_category()});
-    return std::nullopt;
-  }
-  return std::pair{status.st_dev, status.st_ino};
-}
 
 std::vector<fs::path> files_of(const Sequence& sequence) {
   std::vector<fs::path> files = sequence.input_files;

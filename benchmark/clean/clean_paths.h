@@ -52,10 +52,6 @@ struct CleanPaths {
   }
 };
 
-/// What tells the file or folder at `path` from all others, whatever its names; nothing if there is
-/// none. @throws UnreadableError (see core/files/file_kind.h)
-std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
-
 /// All files that a sequence is read from, as far as it says so.
 std::vector<std::filesystem::path> files_of(const Sequence& sequence);
 

@@ -60,6 +60,8 @@ struct SequenceFlags {
   [[nodiscard]] SequenceOptions options() const;
   /// The first of these options that was given, such as "--frames"; empty if none was.
   [[nodiscard]] std::string first_given() const;
+  /// The files that these options name.
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
   /// The value of an option; empty if it was not given.
   [[nodiscard]] const std::string& text(const std::string& name) const { return texts.at(name); }
 

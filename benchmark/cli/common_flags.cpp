@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/clean/clean_paths.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/run/folder/run_folder.h"
 #include "benchmark/suite/reading_options.h"
@@ -40,18 +39,12 @@ void OutputFlag::add_to(CommandOptions& options, const std::string& names,
 
 void OutputFlag::check() const {
   if (path.empty()) return;
-  check_folder_of(path);
-  const FileKind there = file_kind(path);
-  if (there == FileKind::kFolder) {
-    throw UsageError(option + " " + path + ": is a folder, expected a file name.");
-  }
-  if (is_record_of_run(path)) {
-    throw UsageError(option + " " + path +
+  const std::string shown = option + " " + path;
+  const bool is_record = is_record_of_run(path);
+  check_output_file(path, overwrite || is_record, shown);
+  if (is_record) {
+    throw UsageError(shown +
                      ": is a record of a run, which is never replaced. Choose another name.");
-  }
-  if (there == FileKind::kFile && !overwrite) {
-    throw UsageError(option + " " + path +
-                     ": is there already; choose another name, or replace it with --overwrite.");
   }
 }
 
@@ -92,6 +85,14 @@ void SequenceFlags::add_to(CommandOptions& options) {
 
 bool SequenceFlags::has(const ReadingOption& option) const {
   return option.type.empty() ? flags.at(option.name) : !texts.at(option.name).empty();
+}
+
+std::vector<std::filesystem::path> SequenceFlags::files() const {
+  std::vector<std::filesystem::path> files;
+  const std::string& rule = text("label-rule");
+  if (!rule.empty() && is_rule_file(rule)) files.emplace_back(rule);
+  if (!text("poses").empty()) files.emplace_back(text("poses"));
+  return files;
 }
 
 std::string SequenceFlags::first_given() const {

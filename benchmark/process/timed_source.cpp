@@ -16,7 +16,7 @@ Scan TimedSource::load(std::size_t index) const {
     if (index < times_.size() && times_[index]) {
       throw MethodError(fmt::format(
           "method '{}' is marked online and asks for scan {} a second time; an online method reads "
-          "each scan once. Keep what is needed of it, or mark the variant as offline.",
+          "each scan once. Keep its points in the method, or mark the variant as offline.",
           rule_->method, index));
     }
   }
@@ -46,8 +46,7 @@ void TimedSource::check_in_time(std::size_t index) const {
   if (later + (waits ? 0 : 1) <= at_once) return;  // The scan that ends a delay comes after it.
   throw MethodError(fmt::format(
       "method '{}' is marked online and answers for scan {} after it has read scan {}; expected "
-      "the "
-      "answer from the scans up to it{}. Answer earlier, or mark the variant as offline.",
+      "the answer from the scans up to it{}. Answer earlier, or mark the variant as offline.",
       rule_->method, index, latest,
       waits ? fmt::format(" and those of the {} s after it", rule_->delay_s) : ""));
 }

@@ -12,10 +12,9 @@
 
 namespace raymoval {
 
-/// What an online method has to keep to: it asks for each scan once, and answers for scan t before
-/// it asks for one that came more than `delay_s` later. With several threads it may work on two
-/// batches of as many scans (see methods/common/prepared_scans.h); with one thread the check is
-/// exact.
+/// The contract of an online method: it loads each scan once, and answers for scan t before it
+/// loads a scan that is more than `delay_s` later. The check is exact with one thread. With N
+/// threads a method may hold two batches of N scans (see methods/common/prepared_scans.h).
 struct OnlineRule {
   std::string method;  ///< For messages.
   double delay_s = 0.0;
@@ -34,8 +33,8 @@ class TimedSource : public ScanSource {
         rule_(std::move(rule)),
         counts_(source.size()),
         times_(source.size()) {}
-  /// @throws MethodError if an online method asks for a scan again
   [[nodiscard]] std::size_t size() const override { return source_.size(); }
+  /// @throws MethodError if an online method asks for a scan again
   [[nodiscard]] Scan load(std::size_t index) const override;
   [[nodiscard]] Pose pose(std::size_t index) const override { return source_.pose(index); }
   [[nodiscard]] const SensorModel& sensor() const override { return source_.sensor(); }

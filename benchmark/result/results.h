@@ -62,7 +62,7 @@ struct MethodReliability {
   Reliability all;
 };
 
-/// What tables are made of: the cells of results.json, and what is added up over sequences.
+/// The input of all tables: the cells of results.json, and sums over sequences.
 struct RunResults {
   std::string name;
   std::vector<std::string> sequences;

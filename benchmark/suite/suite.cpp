@@ -13,9 +13,6 @@
 namespace raymoval {
 namespace {
 
-/// Marks a setting for a protocol, since `erasor` is the name of a method too.
-const std::string kProtocolPrefix = "protocol:";
-
 const std::pair<std::string, KnownAnswer> kControls[] = {
     {"noop", KnownAnswer::kNothingRemoved},
     {"remove-all", KnownAnswer::kEverythingRemoved},
@@ -25,7 +22,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether a character stays as it is in the name of a folder.
+/// Whether a folder may have this character in its name.
 bool is_plain(char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
          std::string_view("-_.=,+").find(c) != std::string_view::npos;
@@ -170,7 +167,7 @@ void check_given_once(const std::vector<Setting>& settings) {
     names.push_back(request.name);
   }
   for (const ProtocolRequest& request : suite.protocols) {
-    names.push_back(kProtocolPrefix + request.name);
+    names.push_back(std::string(kProtocolPrefix) + request.name);
     if (request.name != given) continue;
     throw UsageError("--set names '" + given +
                      "', which is no method of this run but a protocol: " + "write " +
@@ -244,9 +241,7 @@ std::vector<std::string> settings_without_effect(const Suite& suite) {
 }
 
 void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting& setting) {
-  const bool prefixed = setting.target.starts_with(kProtocolPrefix);
-  const std::string target =
-      prefixed ? setting.target.substr(kProtocolPrefix.size()) : setting.target;
+  const std::string target = without_protocol_prefix(setting.target);
   std::vector<std::string> names;
   for (ProtocolRequest& request : protocols) {
     names.push_back(request.name);

@@ -63,8 +63,8 @@ std::optional<std::string> part_of(const std::string& column, const std::string&
   return name.axis.empty() ? "all" : name.axis + " " + name.band;
 }
 
-/// A table of what is lost of each part, with a column for each method.
-/// @param kind the name of the columns that hold what is not lost
+/// A table of the share that each method loses, with a row for each part.
+/// @param kind the name of the columns that hold the share that is kept
 TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
                      const std::string& title) {
   TextTable table{title, "of", {{"", {"points"}}}};

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -22,6 +25,9 @@ class UnreadableError : public DataError {
  public:
   using DataError::DataError;
 };
+
+/// @param reason the system's error number
+[[noreturn]] void throw_cannot_look_at(const std::filesystem::path& path, int reason);
 
 /// Whether the system's error number means that nothing of a name exists.
 bool means_absent(int reason);
@@ -78,5 +84,9 @@ void remove_if_there(const std::filesystem::path& path);
 
 /// Whether `path` is a link. @throws UnreadableError
 bool is_link(const std::filesystem::path& path);
+
+/// What tells the file or folder at `path` from all others, whatever its names; nothing if there is
+/// none. @throws UnreadableError
+std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
 
 }  // namespace raymoval

@@ -113,10 +113,22 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
   file.commit();
 }
 
-void check_folder_of(const std::filesystem::path& path) {
+void check_output_file(const std::filesystem::path& path, bool overwrite,
+                       const std::string& shown) {
   const std::filesystem::path folder = folder_of(path);
-  if (is_folder(folder)) return void(output_target(path));
-  throw UsageError(path.string() + ": there is no folder " + folder.string() + ". Make it first.");
+  if (!is_folder(folder)) {
+    throw UsageError(path.string() + ": there is no folder " + folder.string() +
+                     ". Make it first.");
+  }
+  (void)output_target(path);
+  const FileKind there = file_kind(path);
+  if (there == FileKind::kFolder) {
+    throw UsageError(shown + ": is a folder, expected a file name.");
+  }
+  if (there == FileKind::kFile && !overwrite) {
+    throw UsageError(shown +
+                     ": is there already; choose another name, or replace it with --overwrite.");
+  }
 }
 
 nlohmann::json read_json(const std::filesystem::path& path) {

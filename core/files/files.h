@@ -26,9 +26,11 @@ std::string read_piece(const std::filesystem::path& path, std::uintmax_t offset,
 /// the same folder, fsync, rename, fsync of the folder. @throws DataError (disk full, no rights).
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// For files that are written after long work. @throws UsageError if the folder of `path` is
-/// missing; DataError if it is a link that leads to no file
-void check_folder_of(const std::filesystem::path& path);
+/// For a file that a user names and that is written after long work.
+/// @param shown how messages call it, such as "--json FILE"
+/// @throws UsageError if its folder is missing, if it is a folder, or if it is there already and is
+/// not to be replaced; DataError if it is a link that leads to no file
+void check_output_file(const std::filesystem::path& path, bool overwrite, const std::string& shown);
 
 /// JSON with // and /* */ comments. @throws ConfigurationError with line, column and reason.
 nlohmann::json read_json(const std::filesystem::path& path);

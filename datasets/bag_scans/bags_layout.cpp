@@ -29,12 +29,12 @@
 namespace raymoval {
 namespace {
 
+namespace fs = std::filesystem;
+
 template <class Value>
 void take(std::vector<Value>& all, std::vector<Value> more) {
   for (Value& value : more) all.push_back(std::move(value));
 }
-
-namespace fs = std::filesystem;
 
 /// What the messages of a topic with scans say before their points.
 struct ScanHeads {

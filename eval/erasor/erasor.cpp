@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/erasor_paper.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "eval/averages.h"
@@ -306,18 +307,7 @@ ProtocolEntry erasor_protocol_entry() {
           .sentence =
               "Preservation and rejection rate over labelled map voxels (ERASOR paper): "
               "PR, RR, F1.",
-          .bibtex = R"(@article{lim2021erasor,
-  author = {Lim, Hyungtae and Hwang, Sungwon and Myung, Hyun},
-  title = {{ERASOR}: Egocentric Ratio of Pseudo Occupancy-Based Dynamic Object Removal for Static
-    3D Point Cloud Map Building},
-  journal = {IEEE Robotics and Automation Letters},
-  year = {2021},
-  volume = {6},
-  number = {2},
-  pages = {2272--2279},
-  doi = {10.1109/LRA.2021.3061363}
-}
-)",
+          .bibtex = kErasorBibtex,
           .parameters = erasor::option_table().specs(),
           .rates = erasor::rate_list(),
           .counts = erasor::count_list(),

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/common/middle_value.h"
+#include "core/sampling.h"
 
 namespace raymoval::beautymap_method {
 namespace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/erasor_paper.h"
 #include "methods/erasor/erasor.h"
 
 namespace raymoval {
@@ -153,18 +154,7 @@ MethodEntry erasor_entry() {
   entry.source =
       "ERASOR: Egocentric Ratio of Pseudo Occupancy-based Dynamic Object Removal for Static 3D "
       "Point Cloud Map Building, RA-L 2021";
-  entry.bibtex = R"(@article{lim2021erasor,
-  author = {Lim, Hyungtae and Hwang, Sungwon and Myung, Hyun},
-  title = {{ERASOR}: Egocentric Ratio of Pseudo Occupancy-Based Dynamic Object Removal for Static
-    3D Point Cloud Map Building},
-  journal = {IEEE Robotics and Automation Letters},
-  year = {2021},
-  volume = {6},
-  number = {2},
-  pages = {2272--2279},
-  doi = {10.1109/LRA.2021.3061363}
-}
-)";
+  entry.bibtex = kErasorBibtex;
   entry.notes = {
       // The page of the method has all.
       "The map is a set of voxels on a lattice that no query moves, each with one fixed centroid "

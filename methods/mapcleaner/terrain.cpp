@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "core/parallel.h"
-#include "methods/common/middle_value.h"
+#include "core/sampling.h"
 
 namespace raymoval::mapcleaner_method {
 namespace {

@@ -146,7 +146,8 @@ TEST_CASE("A link is replaced, unless its target is asked for") {
   CHECK(output_target(folder.path() / "none.txt") == folder.path() / "none.txt");
   std::filesystem::create_symlink("nowhere", folder.path() / "lost");
   CHECK_THROWS_WITH(output_target(folder.path() / "lost"), Contains("is a link to nowhere"));
-  CHECK_THROWS_WITH(check_folder_of(folder.path() / "lost"), Contains("is a link to nowhere"));
+  CHECK_THROWS_WITH(check_output_file(folder.path() / "lost", true, "lost"),
+                    Contains("is a link to nowhere"));
   std::filesystem::create_symlink("elsewhere", folder.path() / "folder");
   CHECK_THROWS_WITH(output_target(folder.path() / "folder"), Contains("which is no file"));
 }

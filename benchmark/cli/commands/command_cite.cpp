@@ -15,8 +15,6 @@
 namespace raymoval {
 namespace {
 
-constexpr std::string_view kProtocolWord = "protocol:";
-
 /// What is cited, each entry once, in the order in which it is asked for.
 class Citations {
  public:
@@ -30,16 +28,12 @@ class Citations {
 
   /// A method, a protocol or a run. @throws UsageError suggesting the nearest name
   void add_named(const std::string& name) {
-    const std::string method = name.substr(0, name.find(':'));
-    std::vector<std::string> names;
-    for (const auto& entry : program_methods().entries()) {
-      if (entry->name == method) return add_method(*entry);
-      names.push_back(entry->name);
-    }
-    const std::string protocol =
-        name.substr(name.starts_with(kProtocolWord) ? kProtocolWord.size() : 0);
+    if (const MethodEntry* entry = known_method(name)) return add_method(*entry);
+    const std::string protocol = without_protocol_prefix(name);
     if (const ProtocolEntry* entry = find_protocol(protocol)) return add_protocol(*entry);
     if (is_there(name)) return add_run(name);
+    std::vector<std::string> names;
+    for (const auto& entry : program_methods().entries()) names.push_back(entry->name);
     for (const ProtocolEntry& entry : protocol_entries()) names.push_back(entry.name);
     throw UsageError("cite " + name + ": there is no such method, protocol or run." +
                      suggestion(protocol, names));
@@ -56,8 +50,11 @@ class Citations {
 
   void add_method(const MethodEntry& entry) {
     const bool is_ours = entry.source == "this project" || is_control(entry.name);
-    if (!entry.bibtex.empty()) add(entry.bibtex);
-    if (entry.bibtex.empty() && !is_ours) add("% " + entry.name + ": " + entry.source + "\n");
+    if (!entry.bibtex.empty()) {
+      add(entry.bibtex);
+    } else if (!is_ours) {
+      add("% " + entry.name + ": " + entry.source + "\n");
+    }
   }
 
   void add_protocol(const ProtocolEntry& entry) {
@@ -67,8 +64,7 @@ class Citations {
   void add_run(const std::string& run) {
     const RunRecord record = read_results(find_results(run)).run;
     for (const auto& method : record.methods) {
-      const std::string name = method.method.substr(0, method.method.find(':'));
-      if (const auto* entry = known_method(name)) {
+      if (const MethodEntry* entry = known_method(method.method)) {
         add_method(*entry);
       } else {
         add("% " + method.method + ": this program does not know the method\n");
@@ -79,7 +75,9 @@ class Citations {
     }
   }
 
-  static const MethodEntry* known_method(const std::string& name) {
+  /// @param full_name with or without a variant
+  static const MethodEntry* known_method(const std::string& full_name) {
+    const std::string name = full_name.substr(0, full_name.find(':'));
     for (const auto& entry : program_methods().entries()) {
       if (entry->name == name) return entry.get();
     }

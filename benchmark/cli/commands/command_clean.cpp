@@ -166,11 +166,7 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
     throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
                     sequence.frames + ").");
   }
-  std::vector<std::filesystem::path> inputs;
-  const std::string& rule = flags.reading.text("label-rule");
-  if (!rule.empty() && is_rule_file(rule)) inputs.emplace_back(rule);
-  if (!flags.reading.text("poses").empty()) inputs.emplace_back(flags.reading.text("poses"));
-  check_apart_from(sequence, paths, inputs);
+  check_apart_from(sequence, paths, flags.reading.files());
   if (method.entry->needs_truth && !sequence.labels) {
     throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
                      " answers from them; choose another --method.");

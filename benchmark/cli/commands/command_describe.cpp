@@ -217,8 +217,6 @@ struct DescribeFlags {
   bool json = false;
 };
 
-constexpr const char* kProtocolPrefix = "protocol:";
-
 /// A name that is both a method's and a protocol's means the method.
 Description description_of(const std::string& name) {
   const MethodRegistry& registry = program_methods();
@@ -229,8 +227,7 @@ Description description_of(const std::string& name) {
     names.push_back(entry->name);
   }
   if (method == "external") return describe_method(registry, name);
-  const bool prefixed = name.rfind(kProtocolPrefix, 0) == 0;
-  const std::string protocol = prefixed ? name.substr(std::string(kProtocolPrefix).size()) : name;
+  const std::string protocol = without_protocol_prefix(name);
   if (const ProtocolEntry* entry = find_protocol(protocol)) return describe_protocol(*entry);
   for (const ProtocolEntry& entry : protocol_entries()) names.push_back(entry.name);
   const std::string owner = protocol.substr(0, protocol.rfind('.'));
@@ -260,8 +257,8 @@ ExitCode describe(const DescribeFlags& flags) {
   } else {
     print(flags.markdown ? description_markdown(description) : description_text(description));
     if (is_also_protocol(flags.name)) {
-      print("\nThe protocol of this name: raymoval describe " + (kProtocolPrefix + flags.name) +
-            "\n");
+      print("\nThe protocol of this name: raymoval describe " + std::string(kProtocolPrefix) +
+            flags.name + "\n");
     }
   }
   return ExitCode::kDone;

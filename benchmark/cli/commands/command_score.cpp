@@ -268,12 +268,10 @@ std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   return suite.protocols;
 }
 
-void check_inputs_stay(const ScoreFlags& flags, const Sequence& sequence) {
+void check_json_is_no_input(const ScoreFlags& flags, const Sequence& sequence) {
   std::vector<std::filesystem::path> inputs = files_of(sequence);
-  for (const std::string& file :
-       {flags.cloud, flags.reading.text("poses"), flags.reading.text("label-rule")}) {
-    if (!file.empty()) inputs.emplace_back(file);
-  }
+  for (const std::filesystem::path& file : flags.reading.files()) inputs.push_back(file);
+  if (!flags.cloud.empty()) inputs.emplace_back(flags.cloud);
   if (is_folder(flags.predictions)) {
     for (const std::filesystem::path& file : entries_of(flags.predictions)) inputs.push_back(file);
   }
@@ -288,7 +286,7 @@ ExitCode score(const ScoreFlags& flags) {
   Sequence sequence = open_sequence(flags.sequence, flags.reading.options(),
                                     {threads, &progress, &interrupt_flag()});
   tell_opening(sequence, progress);
-  check_inputs_stay(flags, sequence);
+  check_json_is_no_input(flags, sequence);
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
