@@ -21,14 +21,12 @@ ClassNames class_names() {
 /// Poses and frame are those that the files say.
 void check_no_pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder) {
   const std::string why =
-      " cannot be used: the points of this layout stand in the world frame of the poses in the "
-      "VIEWPOINT of each .pcd file. ";
+      " cannot be used: the poses of this layout stand in the VIEWPOINT of each .pcd file. ";
   if (settings.poses) {
     throw UsageError(folder.string() + ": a pose file ('" + *settings.poses + "')" + why +
                      "Leave --poses out.");
   }
-  std::string given = first_pose_setting(settings);
-  if (given.empty() && settings.points == PointFrame::kSensor) given = "--points sensor";
+  const std::string given = first_pose_setting(settings);
   if (given.empty()) return;
   throw UsageError(folder.string() + ": " + given + why + "Leave it out.");
 }
@@ -55,7 +53,7 @@ Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, cons
   sequence.poses_file = "VIEWPOINT";
   if (settings.label_rule_given) sequence.labels = std::make_shared<IntensityLabelSource>(entries);
   FileScanSource::Traits traits;
-  traits.point_frame = PointFrame::kWorld;
+  traits.point_frame = settings.points.value_or(PointFrame::kWorld);
   traits.has_reflectance = false;
   const auto source =
       std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
@@ -74,7 +72,7 @@ Layout dynamicmap_layout() {
   layout.forms = {{"FOLDER", "a folder in DynamicMap layout (pcd/*.pcd)"}};
   layout.scan_folder = "pcd";
   layout.pose_place = PosePlace::kScanFile;
-  layout.points_in_world = layout.labels_in_intensity = true;
+  layout.labels_in_intensity = true;
   layout.class_names = class_names();
   layout.expected_labels =
       "--label-rule FILE, because labels are the intensity of the points in this layout: a JSON "

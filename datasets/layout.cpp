@@ -21,6 +21,7 @@ Sequence make_sequence(const SequenceSettings& settings, const Layout& layout,
   sequence.deskew = settings.deskew;
   sequence.point_time_unit = settings.point_time_unit;
   sequence.T_sensor = settings.T_sensor;
+  sequence.sensor_origin = settings.sensor_origin;
   sequence.time_offset_s = settings.time_offset_s;
   sequence.input_files = settings.input_files;
   sequence.up_choice = std::make_shared<UpChoice>(settings.up);

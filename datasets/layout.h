@@ -46,7 +46,6 @@ struct Layout {
       scan_folder;  ///< The folder in a sequence that holds its scans; empty: none of its own.
   std::string calibration_file;  ///< File in a sequence with a row "Tr:"; empty if there is none.
   PosePlace pose_place = PosePlace::kOther;
-  bool points_in_world = false;      ///< Whether stored points stand in the world frame.
   bool labels_in_intensity = false;  ///< Whether labels are the intensity of the stored points.
   ClassNames class_names;            ///< Of the semantic ids in its labels.
   /// What makes a sequence one with labels, for messages.

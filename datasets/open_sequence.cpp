@@ -9,6 +9,7 @@
 #include "datasets/deskew/deskew.h"
 #include "datasets/ego/ego_region.h"
 #include "datasets/layouts.h"
+#include "datasets/reading/sensor_origin.h"
 
 namespace raymoval {
 namespace {
@@ -115,6 +116,14 @@ PointClock point_clock_of(Sequence& sequence) {
   return clock;
 }
 
+void bring_to_sensor_origin(Sequence& sequence) {
+  const Eigen::Vector3d& origin = *sequence.sensor_origin;
+  sequence.scans = std::make_shared<SensorOriginSource>(sequence.scans, origin);
+  if (sequence.motion == nullptr) return;
+  const Pose T_points_sensor(Eigen::Translation3d{origin});
+  sequence.motion = std::make_shared<SensorMotion>(sequence.motion->followed_by(T_points_sensor));
+}
+
 }  // namespace
 
 Sequence open_sequence(const std::string& path, const SequenceOptions& options,
@@ -125,6 +134,7 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   check_topics(*layout, path, options);
   Sequence sequence = layout->open(path, options, context);
   check_label_rule(sequence, options);
+  if (sequence.sensor_origin) bring_to_sensor_origin(sequence);
   std::optional<PointClock> clock;
   if (sequence.deskew) clock = point_clock_of(sequence);
   if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {

@@ -4,6 +4,7 @@
 #include "core/scan/local_frame.h"
 #include "datasets/deskew/deskew.h"
 #include "datasets/ego/ego_region.h"
+#include "datasets/reading/sensor_origin.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -56,6 +57,7 @@ DataRecord Sequence::record() const {
     data.drop_ego = {ego_region_text(without_ego->asked()), ego_region_text(without_ego->region())};
   }
   if (T_sensor) data.T_sensor = std::filesystem::path(*T_sensor).filename().string();
+  if (sensor_origin) data.sensor_origin = sensor_origin_text(*sensor_origin);
   data.time_offset_s = time_offset_s;
   if (const DeskewedSource* deskewed = deskewed_source(*this)) data.deskew = deskewed->clock().text;
   if (labels) data.label_rule = label_rule;
@@ -73,8 +75,10 @@ const EgoFreeSource* ego_free_source(const Sequence& sequence) {
 }
 
 const ScanSource& stored_source(const Sequence& sequence) {
-  if (const EgoFreeSource* without_ego = ego_free_source(sequence)) return without_ego->whole();
-  return *skewed_source(sequence);
+  const EgoFreeSource* without_ego = ego_free_source(sequence);
+  const ScanSource& source = without_ego ? without_ego->whole() : *skewed_source(sequence);
+  const auto* moved = dynamic_cast<const SensorOriginSource*>(&source);
+  return moved != nullptr ? moved->whole() : source;
 }
 
 const FileScanSource* file_source(const Sequence& sequence) {

@@ -34,7 +34,8 @@ struct DataRecord {
   RangeLimits range_m = {};
   std::optional<EgoRecord> drop_ego = std::nullopt;
   std::optional<LabelRule> label_rule = std::nullopt;  ///< No value if the data has no labels.
-  std::string T_sensor = {};  ///< As the user said it, a file without its folder; else empty.
+  std::string T_sensor = {};       ///< As the user said it, a file without its folder; else empty.
+  std::string sensor_origin = {};  ///< As the user said it, "1.2,0,1.8"; else empty.
   std::optional<double> time_offset_s = std::nullopt;  ///< As the user said it.
   /// How motion within scans was taken out: "time in seconds from the time of the scan". Else
   /// empty.

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/deskew/deskew.h"
+#include "datasets/reading/sensor_origin.h"
 #include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {
@@ -74,6 +75,11 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
                  [&] { return seconds_of_unit(*settings.point_time_unit); });
   }
   settings.deskew = file.flag("deskew", settings.deskew);
+  if (file.has("sensor_origin")) {
+    settings.sensor_origin = read_in_file(file.place("sensor_origin"), [&] {
+      return parse_sensor_origin(file.text("sensor_origin"));
+    });
+  }
   if (file.has("time_offset_s")) settings.time_offset_s = file.number("time_offset_s", 0.0);
   if (file.has("max_gap_s")) settings.max_gap_s = file.positive("max_gap_s", 1.0);
   if (file.has("points")) {
@@ -84,10 +90,11 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
 
 void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
   const json content = read_json(path);
-  const Fields file(content, path.string(),
-                    "name source sensor up scan_period_s poses poses_are_lidar range_m labels "
-                    "drop_ego point_layout pose_format T_sensor time_offset_s max_gap_s points "
-                    "deskew point_time_unit");
+  const Fields file(
+      content, path.string(),
+      "name source sensor up scan_period_s poses poses_are_lidar range_m labels "
+      "drop_ego point_layout pose_format T_sensor sensor_origin time_offset_s max_gap_s points "
+      "deskew point_time_unit");
   settings.name = file.text("name", settings.name);
   settings.source = file.text("source", settings.source);
   if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
@@ -171,6 +178,7 @@ void apply_pose_options(const SequenceOptions& options, SequenceSettings& settin
   if (options.poses) settings.poses = options.poses;
   if (options.pose_format) settings.pose_format = options.pose_format;
   if (options.T_sensor) settings.T_sensor = options.T_sensor;
+  if (options.sensor_origin) settings.sensor_origin = options.sensor_origin;
   if (options.time_offset_s) settings.time_offset_s = options.time_offset_s;
   if (options.max_gap_s) settings.max_gap_s = options.max_gap_s;
   if (options.points) settings.points = options.points;

@@ -31,6 +31,7 @@ struct SequenceSettings {
   bool moving_now = false;        ///< Whether the rule is `kMovingNow`.
   std::optional<std::string> pose_format;
   std::optional<std::string> T_sensor;  ///< As the user gives it: a file, or seven numbers.
+  std::optional<Eigen::Vector3d> sensor_origin;  ///< Of the rays, in the frame of the points.
   std::optional<double> time_offset_s;
   std::optional<double> max_gap_s;
   std::optional<PointFrame> points;
@@ -42,8 +43,8 @@ struct SequenceSettings {
 /// Reads `folder`/sequence.json if there is one and lays `options` over it. Its keys, all optional:
 /// name, source, sensor (a known sensor, or "estimated" or "" for none), point_layout, up, drop_ego
 /// (as `parse_ego_region`, or a number of metres), scan_period_s, poses, pose_format,
-/// poses_are_lidar, T_sensor, time_offset_s, max_gap_s, points ("sensor" or "world"), deskew,
-/// point_time_unit, range_m {min, max}, labels {name, moving, ignored}.
+/// poses_are_lidar, T_sensor, sensor_origin, time_offset_s, max_gap_s, points ("sensor" or
+/// "world"), deskew, point_time_unit, range_m {min, max}, labels {name, moving, ignored}.
 /// @param defaults what holds where neither says anything; a `name` in it stands above the file's
 /// @throws ConfigurationError for an unknown key (with the nearest known one) or an illegal value
 SequenceSettings read_settings(const std::filesystem::path& folder, const SequenceOptions& options,

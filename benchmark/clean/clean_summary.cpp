@@ -22,11 +22,11 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
 
 }  // namespace
 
-std::vector<Finding> check_data(const Sequence& sequence, const std::string& path, bool force,
-                                Progress& progress, const std::atomic<bool>& cancel) {
-  progress.begin("looking for mistakes in the data", 1);
-  const InspectionReport report = inspect(sequence, &cancel);
-  progress.end();
+InspectionReport check_data(const Sequence& sequence, const std::string& path, bool force,
+                            const OpenContext& context) {
+  context.progress->begin("looking for mistakes in the data", 1);
+  InspectionReport report = inspect(sequence, context.threads, context.cancel);
+  context.progress->end();
   std::vector<std::string> wrong;
   std::vector<Finding> warned;
   for (const Finding& finding : report.findings) {
@@ -41,7 +41,8 @@ std::vector<Finding> check_data(const Sequence& sequence, const std::string& pat
                     finding.sentence());
     }
   }
-  if (wrong.empty()) return warned;
+  report.findings = std::move(warned);
+  if (wrong.empty()) return report;
   throw DataError(
       fmt::format("{} The map would be wrong, so nothing was written; `raymoval inspect {}` says "
                   "more, and --force cleans all the same.",

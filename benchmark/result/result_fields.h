@@ -74,6 +74,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) 
   visitor.optional("drop_ego", data.drop_ego);
   visitor.nullable("label_rule", data.label_rule);
   visitor.optional("T_sensor", data.T_sensor);
+  visitor.optional("sensor_origin", data.sensor_origin);
   visitor.optional("time_offset_s", data.time_offset_s);
   visitor.optional("deskew", data.deskew);
   visitor.optional("losses", data.losses);

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/reading/left_out.h"
+#include "datasets/reading/sensor_origin.h"
 #include "datasets/settings.h"
 
 namespace raymoval {
@@ -21,9 +22,11 @@ void set_text(Options& options, Text /*option*/, Text text) {
   options.*Member = text;
 }
 
-void set_drop_ego(Options& options, Text option, Text text) {
+/// What `read` gives, whose errors begin with the option.
+template <class Read>
+auto in_option(Text option, Read&& read) {
   try {
-    options.drop_ego = parse_ego_region(text);
+    return read();
   } catch (const UsageError& error) {
     throw UsageError(option + " " + error.what());
   }
@@ -55,6 +58,12 @@ const std::vector<ReadingOption>& reading_options() {
        "Pose of the sensor in the frame of the body that the poses are about: "
        "x,y,z,qx,qy,qz,qw in metres, or a file with these or a 4 x 4 matrix",
        set_text<&Options::T_sensor>},
+      {"sensor-origin", "X,Y,Z",
+       "Position of the sensor in the frame of the points, metres, where that is not the sensor's "
+       "own: points in the frame of a vehicle",
+       [](Options& o, Text option, Text text) {
+         o.sensor_origin = in_option(option, [&] { return parse_sensor_origin(text); });
+       }},
       {"time-offset", "SECONDS", "Added to the times of the scans before poses are looked up",
        set_time_offset},
       {"max-gap", "SECONDS",
@@ -93,7 +102,9 @@ const std::vector<ReadingOption>& reading_options() {
        "Leave out the points on the vehicle that carries the sensor, so that no method sees them: "
        "auto (estimated), a radius (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in the sensor "
        "frame",
-       set_drop_ego},
+       [](Options& o, Text option, Text text) {
+         o.drop_ego = in_option(option, [&] { return parse_ego_region(text); });
+       }},
       {"point-layout", "FIELDS",
        "The fields of a point in .bin and .npy scans, such as \"x y z intensity ring:u2 t:f8\" "
        "(float32 where no type is given)",

@@ -14,6 +14,7 @@
 #include "core/name.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
+#include "datasets/reading/sensor_origin.h"
 #include "datasets/settings.h"
 #include "eval/protocol_registry.h"
 #include "methods/external/external.h"
@@ -94,14 +95,16 @@ void set_option(const std::string& key, const std::string& text, SequenceOptions
 
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
-  const Fields object(item, where,
-                      "path name frames poses topic pose_topic label_rule range_m sensor up "
-                      "drop_ego point_layout pose_format "
-                      "T_sensor time_offset_s max_gap_s points deskew point_time_unit");
+  const Fields object(
+      item, where,
+      "path name frames poses topic pose_topic label_rule range_m sensor up "
+      "drop_ego point_layout pose_format "
+      "T_sensor sensor_origin time_offset_s max_gap_s points deskew point_time_unit");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
-  for (const char* key : {"name", "frames", "poses", "topic", "pose_topic", "sensor", "up",
-                          "point_layout", "pose_format", "T_sensor", "point_time_unit"}) {
+  for (const char* key :
+       {"name", "frames", "poses", "topic", "pose_topic", "sensor", "up", "point_layout",
+        "pose_format", "T_sensor", "sensor_origin", "point_time_unit"}) {
     if (object.has(key)) set_option(key, object.text(key), options);
   }
   if (const auto rule = text_of(object, "label_rule")) {
@@ -316,6 +319,7 @@ ordered_json to_json(const SequenceRequest& place) {
   add("name", options.name);
   add("pose_format", options.pose_format);
   add("T_sensor", options.T_sensor);
+  if (options.sensor_origin) add("sensor_origin", sensor_origin_text(*options.sensor_origin));
   add("point_time_unit", options.point_time_unit);
   if (options.time_offset_s) add("time_offset_s", number_text(*options.time_offset_s));
   if (options.max_gap_s) add("max_gap_s", number_text(*options.max_gap_s));

@@ -13,8 +13,6 @@ namespace {
 /// Share of infinite coordinates above which a scan is taken for damaged (evaluation protocol, edge
 /// cases). NaN is no damage: drivers write it where nothing came back.
 constexpr double kMostInfinite = 0.01;
-/// No LiDAR measures nearer than this many metres: a point there stands for a missing return.
-constexpr float kAtSensor = 0.05F;
 /// The same at the origin of stored points in the world frame, where the sensor hardly ever stands.
 constexpr float kAtZero = 1e-3F;
 
@@ -83,6 +81,20 @@ void bring_to_sensor(const Pose& T_sensor_world, const Eigen::Vector3d& origin,
 }
 
 }  // namespace
+
+void keep_points(Scan& scan, std::vector<std::uint32_t> kept) {
+  if (kept.size() == scan.size()) return;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    scan.points[k] = scan.points[kept[k]];
+    if (!scan.reflectance.empty()) scan.reflectance[k] = scan.reflectance[kept[k]];
+  }
+  scan.points.resize(kept.size());
+  if (!scan.reflectance.empty()) scan.reflectance.resize(kept.size());
+  for (std::uint32_t& position : kept) {
+    position = static_cast<std::uint32_t>(scan.stored_position(position));
+  }
+  scan.stored_index = std::move(kept);
+}
 
 ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where,
                           const std::function<Cloud(const Eigen::Vector3d&)>& read,

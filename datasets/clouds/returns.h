@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/scan/scan.h"
 #include "datasets/clouds/format/cloud_format.h"
@@ -16,6 +18,12 @@ struct ReturnCounts {
   std::size_t stored = 0, no_returns = 0, infinite = 0;
   [[nodiscard]] std::size_t returns() const { return stored - no_returns - infinite; }
 };
+
+/// No LiDAR measures nearer than this many metres: a point there stands for a missing return.
+inline constexpr float kAtSensor = 0.05F;
+
+/// Leaves the points of `scan` at the positions `kept` (ascending), with what belongs to them.
+void keep_points(Scan& scan, std::vector<std::uint32_t> kept);
 
 /// What to do about a damaged file.
 inline constexpr const char* kRereadRemedy = " Copy it again, or leave it out with --frames.";

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "core/text.h"
+#include "datasets/clouds/returns.h"
 #include "datasets/ego/ego_estimate.h"
 
 namespace raymoval {
@@ -135,22 +136,12 @@ Scan EgoFreeSource::load(std::size_t index) const {
     if (!own.contains(scan.points[i].cast<double>())) kept.push_back(static_cast<std::uint32_t>(i));
   }
   tally_.set(index, scan.stored_point_count, scan.size() - kept.size());
-  if (kept.size() == scan.size()) return scan;
-  if (kept.empty()) {
+  if (kept.empty() && scan.size() > 0) {
     throw DataError("scan " + scan.name + ": all of its " + counted_text(scan.size(), "point") +
                     " lie in the region that --drop-ego leaves out (" + ego_region_text(own) +
                     "). Say a smaller one.");
   }
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    scan.points[k] = scan.points[kept[k]];
-    if (!scan.reflectance.empty()) scan.reflectance[k] = scan.reflectance[kept[k]];
-  }
-  scan.points.resize(kept.size());
-  if (!scan.reflectance.empty()) scan.reflectance.resize(kept.size());
-  for (std::uint32_t& position : kept) {
-    position = static_cast<std::uint32_t>(scan.stored_position(position));
-  }
-  scan.stored_index = std::move(kept);
+  keep_points(scan, std::move(kept));
   return scan;
 }
 

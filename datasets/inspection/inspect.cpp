@@ -42,9 +42,9 @@ const std::vector<InspectionCheck>& inspection_checks() {
   using namespace inspection;
   static const std::vector<Check> checks = [] {
     std::vector<Check> all;
-    for (const auto& part :
-         {recording_checks(), reach_checks(), point_checks(), pose_checks(), time_checks(),
-          label_checks(), ego_checks(), sensor_model_checks(), skew_checks(), world_checks()}) {
+    for (const auto& part : {recording_checks(), reach_checks(), point_checks(), pose_checks(),
+                             time_checks(), label_checks(), ego_checks(), sensor_model_checks(),
+                             skew_checks(), world_checks(), origin_checks(), fit_checks()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
@@ -52,8 +52,8 @@ const std::vector<InspectionCheck>& inspection_checks() {
   return checks;
 }
 
-InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* cancel) {
-  inspection::Samples samples(sequence, cancel);
+InspectionReport inspect(const Sequence& sequence, int threads, const std::atomic<bool>* cancel) {
+  inspection::Samples samples(sequence, threads, cancel);
   InspectionReport report;
   report.sequence = sequence.name;
   report.layout = sequence.layout;
@@ -71,6 +71,7 @@ InspectionReport inspect(const Sequence& sequence, const std::atomic<bool>* canc
     report.notes.push_back(bag_name(scans->bag()) + ": " + topics_sentence(scans->bag()));
   }
   report.sensor = inspection::sensor_text(samples);
+  if (samples.pose_fit) report.pose_fit = inspection::pose_fit_text(samples);
   report.measures = std::move(samples.measures);
   return report;
 }
@@ -172,7 +173,7 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
   report.sequence = std::filesystem::path(path).filename().string();
   report.findings = unopenable_findings(path, options);
   if (!report.findings.empty()) return report;
-  return inspect(open_sequence(path, options, context), context.cancel);
+  return inspect(open_sequence(path, options, context), context.threads, context.cancel);
 }
 
 }  // namespace raymoval

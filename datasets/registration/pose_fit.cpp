@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -24,6 +26,7 @@ constexpr std::size_t kMostScans = 20;        // between stations
 constexpr std::size_t kFarStations = 4;       // A slow drift adds up over so many stations.
 /// A return is within so many strides of a station, after a path of at least so many strides.
 constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
+constexpr double kLeastReturn = 1.5;  // metres
 constexpr std::size_t kLeastMatched = 150;
 constexpr double kLeastOverlap = 0.25;
 constexpr std::size_t kBatch = 32;  // Pairs whose scans are in memory together.
@@ -57,21 +60,64 @@ std::vector<std::size_t> choose_stations(const std::vector<Pose>& poses,
   return stations;
 }
 
+/// The stations by cubic cells, so that those near a position are found without asking all.
+class StationGrid {
+ public:
+  StationGrid(const std::vector<Pose>& poses, double reach) : poses_(poses), reach_(reach) {}
+
+  void add(std::size_t station) {
+    cells_[cell_of(poses_[station].translation())].push_back(station);
+  }
+
+  /// The station nearest to `position` within the reach for which `is_wanted`; `none` if there is
+  /// none.
+  template <class Wanted>
+  [[nodiscard]] std::size_t nearest(const Eigen::Vector3d& position, std::size_t none,
+                                    Wanted&& is_wanted) const {
+    const Cell centre = cell_of(position);
+    double least = reach_;
+    for (int i = 0; i < 27; ++i) {
+      const auto [x, y, z] = centre;
+      const auto found = cells_.find({x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1});
+      if (found == cells_.end()) continue;
+      for (const std::size_t station : found->second) {
+        const double apart = (poses_[station].translation() - position).norm();
+        if (apart >= least || !is_wanted(station)) continue;
+        least = apart;
+        none = station;
+      }
+    }
+    return none;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  [[nodiscard]] Cell cell_of(const Eigen::Vector3d& position) const {
+    const auto at = [&](int axis) {
+      return static_cast<std::int64_t>(std::floor(position[axis] / reach_));
+    };
+    return {at(0), at(1), at(2)};
+  }
+
+  const std::vector<Pose>& poses_;
+  double reach_;
+  std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
 /// For each station the nearest earlier one that the path came back to.
 void add_returns(const std::vector<Pose>& poses, const std::vector<double>& lengths,
                  const std::vector<std::size_t>& stations, double stride, Pairs& pairs) {
+  StationGrid grid(poses, std::max(kReturnStrides * stride, kLeastReturn));
+  std::size_t last = poses.size();
   for (const std::size_t to : stations) {
-    double nearest = kReturnStrides * stride;
-    PairDistance pair{to, to};
-    for (const std::size_t from : stations) {
-      if (from >= to) break;
-      // Drift in height does not hide a return.
-      const double apart = (poses[from].translation() - poses[to].translation()).head<2>().norm();
-      if (apart >= nearest || lengths[to] - lengths[from] < kPathStrides * stride) continue;
-      nearest = apart;
-      pair.from = from;
-    }
-    if (pair.from != to) pairs.push_back(pair);
+    const std::size_t from = grid.nearest(poses[to].translation(), to, [&](std::size_t station) {
+      return lengths[to] - lengths[station] >= kPathStrides * stride;
+    });
+    if (from != to) pairs.push_back({from, to});
+    // A sensor at rest has many stations in one place, of which one is enough.
+    if (last < poses.size() && lengths[to] - lengths[last] < 0.5 * stride) continue;
+    grid.add(to);
+    last = to;
   }
 }
 
@@ -125,6 +171,21 @@ class SurfaceClouds {
 
 }  // namespace
 
+namespace {
+
+bool overlaps_enough(const Registration& found) {
+  return found.matched >= kLeastMatched && found.overlap >= kLeastOverlap;
+}
+
+}  // namespace
+
+double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to) {
+  const SurfaceCloud first(scans.load(from)), second(scans.load(to));
+  const Registration found =
+      register_scans(first, second, scans.pose(from).inverse() * scans.pose(to));
+  return overlaps_enough(found) ? found.shift : 0.0;
+}
+
 PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic<bool>* cancel) {
   PoseFit fit;
   if (scans.size() < 2) return fit;
@@ -145,7 +206,7 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
       found[i] = register_scans(clouds[from], clouds[to], poses[from].inverse() * poses[to]);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      if (found[i].matched < kLeastMatched || found[i].overlap < kLeastOverlap) continue;
+      if (!overlaps_enough(found[i])) continue;
       distances.push_back(found[i].shift);
       noises.push_back(found[i].noise);
       fit.pairs.push_back({pairs[begin + i].from, pairs[begin + i].to, found[i].shift});

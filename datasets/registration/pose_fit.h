@@ -31,4 +31,7 @@ struct PoseFit {
 PoseFit measure_pose_fit(const ScanSource& scans, int threads,
                          const std::atomic<bool>* cancel = nullptr);
 
+/// The distance of one pair; 0 where the scans do not overlap enough. @throws DataError as above
+double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to);
+
 }  // namespace raymoval::registration

@@ -114,6 +114,13 @@ std::string remedy(const std::vector<Nanoseconds>& stamps, const SensorMotion& m
 
 }  // namespace
 
+SensorMotion SensorMotion::followed_by(const Pose& T_body_sensor) const {
+  SensorMotion motion = *this;
+  motion.steps_.emplace_back();
+  motion.steps_.back().fixed = T_body_sensor;
+  return motion;
+}
+
 std::optional<Pose> SensorMotion::at(Nanoseconds stamp) const {
   std::optional<Pose> T_world_sensor;
   for (const MotionStep& link : steps_) {

@@ -93,6 +93,8 @@ class SensorMotion {
 
   /// T_world_sensor at `stamp`. Nothing before the first pose, after the last one, and in gaps.
   [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp) const;
+  /// This motion of a body, then a fixed step to a sensor on it.
+  [[nodiscard]] SensorMotion followed_by(const Pose& T_body_sensor) const;
   /// The time in which all steps are known, on the clock of the scans.
   [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> span() const;
   [[nodiscard]] Nanoseconds time_offset() const { return time_offset_; }

@@ -70,8 +70,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kScans = 8;
-constexpr float kNearestPatch = 1.0F, kFarthestPatch = 30.0F;  ///< Metres from the sensor.
-constexpr double kMostArea = 4.0;  ///< Square metres that a patch counts for at most.
+constexpr float kNearestPatch = 1.0F, kFarthestPatch = 100.0F;  ///< Metres from the sensor.
+constexpr double kFarthestSurface = 30.0;  ///< The same, but for the floor of what flies.
+constexpr double kMostArea = 4.0;          ///< Square metres that a patch counts for at most.
 
 // The ground.
 constexpr double kLowest = 0.3, kHighest = 8.0;  ///< Metres that a sensor stands above it.
@@ -79,6 +80,12 @@ constexpr double kNear = 20.0;                   ///< Metres from the sensor.
 constexpr double kGroundSpread = 12.0;           ///< Degrees between pieces of one ground.
 constexpr double kSensorPrior = 0.5, kWorldPrior = 0.2;
 constexpr double kLeastGround = 4.0;  ///< Square metres a scan.
+
+// What the usual direction must lack for another one to be up.
+constexpr double kMostFloor = 0.25;  ///< Floor of the usual direction, as a share of the other's.
+constexpr double kMostFloorByPath = 0.67;  ///< The same if the path contradicts it, too.
+constexpr double kLeastPath = 0.5;         ///< Metres that a path extends in two directions.
+constexpr double kFlatPath = 0.3;          ///< Its extent across them, as a share.
 
 // Upright surfaces.
 constexpr double kCone = 30.0;  ///< Degrees that up may be away from the ground's direction.
@@ -112,7 +119,8 @@ struct Surface {
 };
 
 struct Surfaces {
-  std::vector<Surface> all;
+  std::vector<Surface> all;              ///< Within `kFarthestSurface`.
+  std::vector<Surface> far;              ///< Beyond.
   Vector3d sensor_z = Vector3d::Zero();  ///< Mean.
   double scans = 0.0;
 };
@@ -123,11 +131,11 @@ Surfaces collect(const ScanSource& scans) {
   for (const std::size_t index : chosen) {
     const Scan scan = scans.load(index);
     const Matrix3d turn = scan.T_world_sensor.linear();
-    for_each_patch(scan, kNearestPatch, kFarthestPatch,
-                   [&](const SurfacePatch& patch, auto /*points*/) {
-                     surfaces.all.push_back(
-                         {turn * patch.normal, turn * patch.mean, std::min(patch.area, kMostArea)});
-                   });
+    for_each_patch(
+        scan, kNearestPatch, kFarthestPatch, [&](const SurfacePatch& patch, auto /*points*/) {
+          auto& some = patch.mean.norm() > kFarthestSurface ? surfaces.far : surfaces.all;
+          some.push_back({turn * patch.normal, turn * patch.mean, std::min(patch.area, kMostArea)});
+        });
     surfaces.sensor_z += turn.col(2) / static_cast<double>(chosen.size());
     surfaces.scans += 1.0;
   }
@@ -176,15 +184,15 @@ std::vector<Vector3d> directions_around(const Vector3d& axis, double cone, doubl
   return directions;
 }
 
-/// Zero if there is none.
-Vector3d find_ground(const Surfaces& surfaces) {
+/// Zero if there is none. @param usual the direction that is up as a rule
+Vector3d find_ground(const Surfaces& surfaces, const Vector3d& usual) {
   Vector3d best = Vector3d::Zero();
   double most = 0.0, area = 0.0;
   for (const Vector3d& up : directions_around(Vector3d::UnitZ(), 180.0, 6.0)) {
     double support = 0.0;
     refined_ground(surfaces, up, support);
     const double score =
-        support * (1.0 + kSensorPrior * up.dot(surfaces.sensor_z) + kWorldPrior * up.z());
+        support * (1.0 + kSensorPrior * up.dot(surfaces.sensor_z) + kWorldPrior * up.dot(usual));
     if (score <= most) continue;
     most = score;
     area = support;
@@ -254,8 +262,47 @@ Vector3d find_upright(const Sides& sides, const Vector3d& ground) {
   return best;
 }
 
-Vector3d axis_meant(const Vector3d& ground) {
-  if (ground.z() >= cosine(kMeantAxis)) return Vector3d::UnitZ();
+/// Area of what lies level if up is `up`, and not above the sensor, square metres. It may lie at
+/// any distance, and on the level of an origin of the points that is not the sensor.
+double floor_area(const Surfaces& surfaces, const Vector3d& up) {
+  double area = 0.0;
+  for (const auto* some : {&surfaces.all, &surfaces.far}) {
+    for (const Surface& surface : *some) {
+      if (surface.from_sensor.dot(up) > kLowest) continue;
+      if (std::abs(surface.normal.dot(up)) >= cosine(2.0 * kGroundSpread)) area += surface.weight;
+    }
+  }
+  return area;
+}
+
+/// The direction that the path lies across, if it extends in two others; else zero.
+Vector3d normal_of_path(const ScanSource& scans) {
+  Vector3d mean = Vector3d::Zero();
+  Matrix3d squares = Matrix3d::Zero();
+  const auto count = static_cast<double>(scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) mean += scans.pose(i).translation() / count;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Vector3d offset = scans.pose(i).translation() - mean;
+    squares += offset * offset.transpose() / count;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(squares);
+  const Vector3d extents = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (extents[1] < kLeastPath || extents[0] > kFlatPath * extents[1]) return Vector3d::Zero();
+  return solver.eigenvectors().col(0);
+}
+
+/// Whether the scans show that `usual` is not up, but about `ground` is. Facades beside a drone and
+/// the ceiling above a robot look like ground, too, so the floor below must be missing.
+bool is_contradicted(const Vector3d& usual, const Vector3d& ground, const Surfaces& surfaces,
+                     const Vector3d& path) {
+  const double floor = floor_area(surfaces, usual), other = floor_area(surfaces, ground);
+  if (floor < kMostFloor * other) return true;
+  return floor < kMostFloorByPath * other && !path.isZero() && std::abs(path.dot(usual)) < 0.5 &&
+         std::abs(path.dot(ground)) > 0.8;
+}
+
+Vector3d axis_meant(const Vector3d& ground, const Vector3d& usual) {
+  if (ground.dot(usual) >= cosine(kMeantAxis)) return usual;
   Eigen::Index axis = 0;
   ground.cwiseAbs().maxCoeff(&axis);
   return Vector3d::Unit(axis) * (ground[axis] < 0.0 ? -1.0 : 1.0);
@@ -263,12 +310,19 @@ Vector3d axis_meant(const Vector3d& ground) {
 
 }  // namespace
 
-GravityEvidence estimate_gravity(const ScanSource& scans) {
+GravityEvidence estimate_gravity(const ScanSource& scans, const Vector3d& usual) {
   GravityEvidence evidence;
+  evidence.up.direction = evidence.upright = usual;
   const Surfaces surfaces = collect(scans);
-  evidence.ground = find_ground(surfaces);
+  evidence.ground = find_ground(surfaces, usual);
   if (evidence.ground.isZero()) return evidence;
-  const Vector3d axis = axis_meant(evidence.ground);
+  if (evidence.ground.dot(usual) < cosine(kMeantAxis) &&
+      !is_contradicted(usual, evidence.ground, surfaces, normal_of_path(scans))) {
+    double area = 0.0;
+    evidence.ground = refined_ground(surfaces, usual, area);
+    if (area < kLeastGround * surfaces.scans) return evidence;
+  }
+  const Vector3d axis = axis_meant(evidence.ground, usual);
   const Sides sides = sides_of(surfaces, evidence.ground);
   evidence.upright = find_upright(sides, evidence.ground);
   bool clear = evidence.ground.dot(axis) < cosine(kSteepest);
@@ -281,7 +335,7 @@ GravityEvidence estimate_gravity(const ScanSource& scans) {
   }
   const bool tilted = evidence.upright.dot(axis) < cosine(kLeastTilt);
   evidence.up.direction = tilted && clear ? evidence.upright : axis;
-  if (!evidence.up.is_world_z()) evidence.up.source = UpDirection::Source::kEstimated;
+  if (evidence.up.direction != usual) evidence.up.source = UpDirection::Source::kEstimated;
   return evidence;
 }
 

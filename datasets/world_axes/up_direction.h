@@ -53,13 +53,17 @@ struct GravityEvidence {
   double share_upright = 0.0, share_axis = 0.0;
 };
 
-/// Estimates which way is up from up to eight evenly spaced scans.
+/// Estimates which way is up from the poses and up to eight evenly spaced scans.
 ///
 /// The ground is what lies below the sensor and faces it, in all scans alike; the mean z axis of
-/// the sensor decides only between directions of like support. A slope is ground as well, so the
-/// ground tells which axis of the world is meant, and upright surfaces (walls, trunks, sides of
-/// things) tell whether that axis is wrong. The answer is the axis nearest to the ground's
-/// direction (+z where z is within 40 degrees of it), unless
+/// the sensor decides only between directions of like support. If the ground does not face about
+/// `usual`, three kinds of evidence must contradict `usual` together: there is ground in the other
+/// direction, hardly any floor below the sensor at whatever distance, or somewhat little of it and
+/// a path in a plane across the other direction. Otherwise `usual` is up.
+///
+/// A slope is ground as well, so the ground tells which axis of the world is meant, and upright
+/// surfaces (walls, trunks, sides of things) tell whether that axis is wrong. The answer is the
+/// axis nearest to the ground's direction (`usual` where that is within 40 degrees of it), unless
 /// - upright surfaces agree on a direction more than 8 degrees from it, 1.5 times as well as on
 ///   that axis, or
 /// - the ground as a whole is steeper than 30 degrees if that axis is up.
@@ -68,8 +72,10 @@ struct GravityEvidence {
 ///
 /// The answer does not depend on the order of points. It turns with the poses: their rotation
 /// changes it by rounding only, apart from the choice of the axis.
+/// @param usual unit vector, the direction that is up unless the scans contradict it
 /// @throws DataError if a scan cannot be read
-GravityEvidence estimate_gravity(const ScanSource& scans);
+GravityEvidence estimate_gravity(const ScanSource& scans,
+                                 const Eigen::Vector3d& usual = Eigen::Vector3d::UnitZ());
 
 /// What a user said about up, or the estimate, made when first asked for.
 class UpChoice {

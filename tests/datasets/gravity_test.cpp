@@ -203,3 +203,67 @@ TEST_CASE("a simulated drive is upright in any world", "[gravity]") {
     CHECK(degrees_between(up_of(LocalFrameSource(drive, turn)), turn.linear().col(2)) < 2.0);
   }
 }
+
+namespace {
+
+/// A hall of 40 x 24 m and 6 m in height.
+std::vector<Rectangle> hall() {
+  std::vector<Rectangle> surfaces;
+  for (const double z : {0.0, 6.0}) surfaces.push_back({{0, 0, z}, {20, 0, 0}, {0, 12, 0}});
+  for (const double y : {-12.0, 12.0}) surfaces.push_back({{0, y, 3}, {20, 0, 0}, {0, 0, 3}});
+  for (const double x : {-20.0, 20.0}) surfaces.push_back({{x, 0, 3}, {0, 12, 0}, {0, 0, 3}});
+  return surfaces;
+}
+
+/// Scans along a loop through `surfaces`, by a sensor that is turned by `mount`.
+FlatWorld loop_through(const std::vector<Rectangle>& surfaces, double height,
+                       const Eigen::Matrix3d& mount) {
+  FlatWorld world;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 45.0 * kDegree * i;
+    Pose pose(Eigen::Translation3d(6.0 * std::cos(angle), 4.0 * std::sin(angle), height));
+    pose.linear() = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix() * mount;
+    world.scan(surfaces, pose);
+  }
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("z stays up for a drone beside facades, however its sensor is turned", "[gravity]") {
+  // Facades on either side, 8 m away, look like ground; the street is 25 m below.
+  const std::vector<Rectangle> street = {{{0, 0, 0}, {150, 0, 0}, {0, 60, 0}},
+                                         {{0, 8, 20}, {70, 0, 0}, {0, 0, 20}},
+                                         {{0, -8, 20}, {70, 0, 0}, {0, 0, 20}}};
+  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0)}) {
+    for (const double degrees : {60.0, 90.0, 180.0}) {
+      FlatWorld flight;
+      for (int i = 0; i < 6; ++i) {
+        flight.scan(street, Eigen::Translation3d(3.0 * i, 0, 25) * turned(degrees, axis));
+      }
+      INFO("turned by " << degrees << " about " << axis.transpose());
+      CHECK(estimate_gravity(flight).up.is_world_z());
+    }
+  }
+}
+
+TEST_CASE("z stays up for a sensor that hangs from a ceiling or lies on its side", "[gravity]") {
+  for (const double degrees : {90.0, 180.0}) {
+    const auto mount = turned(degrees, Vector3d::UnitX()).linear();
+    CHECK(estimate_gravity(loop_through(hall(), 5.2, mount)).up.is_world_z());
+    CHECK(estimate_gravity(loop_through(hall(), 1.0, mount)).up.is_world_z());
+  }
+}
+
+TEST_CASE("what a user states is contradicted by several kinds of evidence only", "[gravity]") {
+  const FlatWorld upright = loop_through(hall(), 1.2, Eigen::Matrix3d::Identity());
+  const Vector3d down_y(0, -1, 0);
+  // The floor is missing if -y were up, and the path lies across z.
+  CHECK(estimate_gravity(upright, down_y).up.direction == Vector3d::UnitZ());
+  // In camera axes -y is up, and nothing speaks against it.
+  Pose camera = Pose::Identity();
+  camera.linear() = turn_to_z(down_y).transpose();
+  const LocalFrameSource turned_world(upright, camera);
+  CHECK(estimate_gravity(turned_world, down_y).up.direction == down_y);
+  CHECK(estimate_gravity(turned_world).up.direction == down_y);
+}

@@ -54,7 +54,8 @@ struct PcdStyle {
 };
 
 InspectionReport inspect_dynamicmap(const PcdStyle& style, const std::string& settings = "",
-                                    const EditedSequence& drive = good_drive()) {
+                                    const EditedSequence& drive = good_drive(),
+                                    const SequenceOptions& options = {}) {
   const TemporaryFolder folder;
   for (const Scan& scan : drive.scans) {
     std::vector<Eigen::Vector3f> points = scan.points;
@@ -70,7 +71,7 @@ InspectionReport inspect_dynamicmap(const PcdStyle& style, const std::string& se
               intensity);
   }
   if (!settings.empty()) folder.write("sequence.json", settings);
-  return inspect_path(folder.text(), {});
+  return inspect_path(folder.text(), options);
 }
 
 /// A folder of .bin scans beside a pose file in the LiDAR's frame.
@@ -106,7 +107,10 @@ TEST_CASE("VIEWPOINT applied twice or not at all is named", "[inspect][slow]") {
   check_finds(inspect_dynamicmap(twice), "viewpoint-twice", "once");
   PcdStyle never;
   never.times_applied = 0;
-  check_finds(inspect_dynamicmap(never), "viewpoint-missing", "T p");
+  check_finds(inspect_dynamicmap(never), "viewpoint-missing", "--points sensor");
+  SequenceOptions of_sensor;
+  of_sensor.points = PointFrame::kSensor;
+  check_silent(inspect_dynamicmap(never, "", good_drive(), of_sensor));
 }
 
 TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect][slow]") {
@@ -119,6 +123,11 @@ TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect][slow]
   check_finds(inspect_dynamicmap(inverse, range, drive), "poses-inverted", "T_world_sensor");
   PcdStyle none;  // PCL's default, points in the world frame.
   none.stored_pose = [](const Pose&) { return Pose(Pose::Identity()); };
+  check_finds(inspect_dynamicmap(none, range, drive), "viewpoint-missing", "VIEWPOINT");
+  // Of one that stands on the ground, where no point lies below.
+  none.stored_pose = [&](const Pose&) {
+    return Pose(Eigen::Translation3d(0.0, 0.0, -1.8) * drive.pose(0));
+  };
   check_finds(inspect_dynamicmap(none, range, drive), "viewpoint-missing", "VIEWPOINT");
 }
 

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -14,33 +13,12 @@
 #include "datasets/registration/ray_origin.h"
 #include "datasets/registration/register_scans.h"
 #include "datasets/simulation/street/street.h"
+#include "tests/datasets/wrong_poses.h"
 
 namespace raymoval::registration {
+using test::WrongPoses;
+
 namespace {
-
-/// The street under other poses.
-class WrongPoses : public ScanSource {
- public:
-  explicit WrongPoses(std::function<Eigen::Vector3d(std::size_t)> error)
-      : sequence_(make_street({}, street_boxes())), error_(std::move(error)) {}
-
-  [[nodiscard]] std::size_t size() const override { return sequence_.scans->size(); }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    Pose pose = sequence_.scans->pose(index);
-    pose.translation() += error_(index);
-    return pose;
-  }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = sequence_.scans->load(index);
-    scan.T_world_sensor = pose(index);
-    return scan;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return sequence_.scans->sensor(); }
-
- private:
-  Sequence sequence_;
-  std::function<Eigen::Vector3d(std::size_t)> error_;
-};
 
 Scan street_scan(std::size_t index) {
   return make_street({}, street_boxes()).scans->load(index);

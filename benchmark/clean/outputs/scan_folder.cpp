@@ -71,9 +71,10 @@ std::vector<fs::path> side_files(const Sequence& sequence, const fs::path& root)
   return files;
 }
 
-std::string pose_row(const Scan& scan) {
+/// @param origin of the sensor in the frame of the stored points, which the row is of
+std::string pose_row(const Scan& scan, const Eigen::Vector3d& origin) {
   const Eigen::Quaterniond turn(scan.T_world_sensor.linear());
-  const Eigen::Vector3d at = scan.T_world_sensor.translation();
+  const Eigen::Vector3d at = scan.T_world_sensor * -origin;
   std::string row = number_text(scan.time_s);
   for (const double value : {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}) {
     row += ' ' + number_text(value);
@@ -178,7 +179,7 @@ void ScanFolder::add(const CleanedScan& scan) {
   if (files != nullptr && !files->frames()[scan.scan.index].label_path.empty()) {
     write_labels(files->frames()[scan.scan.index].label_path, keep);
   }
-  pose_rows_ += pose_row(scan.scan);
+  pose_rows_ += pose_row(scan.scan, sequence_.sensor_origin.value_or(Eigen::Vector3d::Zero()));
 }
 
 void ScanFolder::finish() {

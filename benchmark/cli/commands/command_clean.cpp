@@ -61,7 +61,7 @@ struct CleaningFacts {
   const CleanPaths& paths;
   RangeCut range;
   RangeShares shares = {};
-  std::vector<Finding> warned = {};
+  InspectionReport report = {};
   double seconds = 0.0;
 };
 
@@ -187,7 +187,7 @@ std::vector<std::string> arguments_of_child() {
 std::string reading_arguments(bool own_poses) {
   constexpr std::array kReading = {"--sensor", "--up",           "--label-rule",
                                    "--points", "--point-layout", "--point-time-unit",
-                                   "--deskew"};
+                                   "--deskew", "--sensor-origin"};
   constexpr std::array kPoses = {"--frames",      "--poses",   "--T-sensor",
                                  "--time-offset", "--max-gap", "--pose-format"};
   const auto is_one = [](const auto& names, const std::string& word) {
@@ -234,11 +234,12 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
   }
   for (const std::string& line : left_out_lines(sequence)) text += line + ".\n";
   for (const std::string& line : sequence.notes) text += line + '\n';
+  if (!facts.report.pose_fit.empty()) text += sequence.name + ": " + facts.report.pose_fit + ".\n";
   text += outputs_summary(paths, outputs);
   text += "It took " + fixed_text(facts.seconds, 1) + " s.\nIf the map does not look right:\n";
   for (const std::string& line :
        what_to_try(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
-                   facts.warned, !paths.page.empty() || !paths.picture.empty())) {
+                   facts.report.findings, !paths.page.empty() || !paths.picture.empty())) {
     text += "  - " + line + '\n';
   }
   return text;
@@ -253,7 +254,8 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
   for (const std::string& line : sequence.losses) print_warning(line);
   CleaningFacts facts{paths, RangeCut{flags.reading.options().range_m}};
-  facts.warned = check_data(sequence, flags.path, flags.force, progress, interrupt_flag());
+  facts.report = check_data(sequence, flags.path, flags.force,
+                            {flags.work.thread_count(), &progress, &interrupt_flag()});
   progress.set_context(method.full_name() + " on " + sequence.name);
   // A scan that is another when the map is written than when it was judged is an error.
   const WatchedSequence data = watched(sequence);

@@ -29,6 +29,7 @@ static void describe(RecordWriter& writer, const InspectionReport& report) {
   writer.field("scans", report.scans);
   writer.field("scans_read", report.scans_read);
   writer.field("sensor", report.sensor);
+  writer.field("pose_fit", report.pose_fit);
   writer.field("notes", report.notes);
   writer.field("findings", report.findings);
   writer.field("measures", report.measures);
@@ -56,6 +57,7 @@ std::string report_text(const InspectionReport& report) {
                     [](const Finding& f) { return f.severity == Severity::kNote; }));
   const std::size_t findings = report.findings.size() - notes;
   if (!report.sensor.empty()) text += report.sequence + ": sensor " + report.sensor + ".\n";
+  if (!report.pose_fit.empty()) text += report.sequence + ": " + report.pose_fit + ".\n";
   text += report.sequence + ": " + counted_text(findings, "finding");
   if (notes > 0) text += ", " + counted_text(notes, "note");
   if (report.scans == 0) return text + "; the sequence cannot be opened.\n";
@@ -115,8 +117,10 @@ Command add_inspect_command(CommandParser& program) {
   options.set_footer(
       "Each finding is one line: what is wrong, where, what was expected, and what to do. Then "
       "follows\n"
-      "the sensor as it is named and as the scans show it. About thirty scans are read, and the\n"
-      "poses, times and file sizes of all.\n"
+      "the sensor as it is named and as the scans show it, and how well the poses fit. About "
+      "thirty\n"
+      "scans are read, for the poses two more every few metres, and poses, times and sizes of "
+      "all.\n"
       "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
       "Examples:\n"
       "  raymoval inspect data/05\n"

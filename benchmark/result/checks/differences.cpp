@@ -109,8 +109,9 @@ Facts comparison_facts(const Cell& cell) {
   if (!cell.data) return facts;  // The data could not be read.
   const ordered_json data = to_json(*cell.data);
   // Frames, poses and sensor are part of the fingerprint; here they tell why it differs.
-  for (const char* part : {"fingerprint", "scans", "frames", "poses", "sensor", "range_m",
-                           "label_rule", "drop_ego", "T_sensor", "time_offset_s", "deskew"}) {
+  for (const char* part :
+       {"fingerprint", "scans", "frames", "poses", "sensor", "range_m", "label_rule", "drop_ego",
+        "T_sensor", "sensor_origin", "time_offset_s", "deskew"}) {
     if (data.contains(part)) facts[std::string("data ") + part] = data[part].dump();
   }
   // Results of earlier versions do not say which way is up; they took z.

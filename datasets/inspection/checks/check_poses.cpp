@@ -127,11 +127,35 @@ std::size_t points_below(const Scan& scan, const Eigen::Vector3d& centre) {
   return count;
 }
 
+constexpr const char* kWriteViewpoint =
+    "Write the position and attitude of the sensor at each scan into its VIEWPOINT; points in the "
+    "world frame do not tell where they were seen from.";
+
+/// Whether all files have one VIEWPOINT, though their points move from scan to scan.
+bool is_left_at_one_place(const Samples& samples) {
+  constexpr double kLeast = 1.0, kLeastShare = 0.25;  // metres, and of the median range
+  const auto& poses = samples.poses();
+  const bool equal = std::all_of(poses.begin(), poses.end(), [&](const Pose& pose) {
+    return pose.matrix() == poses.front().matrix();
+  });
+  if (!equal) return false;
+  const Eigen::Vector3d first = middle_of(samples.scans().begin()->second);
+  return std::any_of(samples.scans().begin(), samples.scans().end(), [&](const auto& scan) {
+    return (middle_of(scan.second) - first).norm() >
+           std::max(kLeast, kLeastShare * samples.median_range());
+  });
+}
+
 /// Points in the world frame agree whatever VIEWPOINT says; but a sensor sees no ground right below
 /// itself.
 std::vector<Finding> look_for_sensor(Samples& samples) {
   constexpr std::size_t kMany = 8, kFew = 2;
-  if (!samples.layout().points_in_world || !pose_verdict(samples).check.empty()) return {};
+  if (!samples.points_in_world() || !pose_verdict(samples).check.empty()) return {};
+  if (is_left_at_one_place(samples)) {
+    return {{.check = "viewpoint-missing",
+             .what = "VIEWPOINT is the same in all files, but the points move from scan to scan",
+             .remedy = kWriteViewpoint}};
+  }
   std::size_t given = 0, inverse = 0;
   for (const auto& [index, scan] : samples.scans()) {
     if (points_below(scan, scan.T_world_sensor.translation()) >= kMany) ++given;
@@ -151,9 +175,7 @@ std::vector<Finding> look_for_sensor(Samples& samples) {
         "Write the pose of the sensor in the world (T_world_sensor) into VIEWPOINT, "
         "not its inverse.";
   } else {
-    finding.remedy =
-        "Write the position and attitude of the sensor at each scan into its "
-        "VIEWPOINT; points in the world frame do not tell where they were seen from.";
+    finding.remedy = kWriteViewpoint;
   }
   return {finding};
 }
@@ -196,8 +218,7 @@ std::vector<Check> pose_checks() {
                     "VIEWPOINT is not applied to the stored points, or is not "
                     "the pose of the sensor",
                     "stored points = T p with T from VIEWPOINT and p in the sensor frame",
-                    "Write points in the world frame: T p with T from VIEWPOINT. Or put the scans "
-                    "beside a pose file, where points stay in the sensor frame."),
+                    "Say --points sensor if the points are in the frame of the sensor."),
       {"sensor-elsewhere", "the sensor does not stand where VIEWPOINT says",
        "VIEWPOINT = tx ty tz qw qx qy qz, the pose of the sensor",
        "Write the pose of the sensor at each scan into its VIEWPOINT.", look_for_sensor,

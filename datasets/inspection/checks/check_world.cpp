@@ -166,7 +166,7 @@ std::vector<Finding> look_for_wrong_up(Samples& samples) {
   constexpr double kContradiction = 15.0;  // degrees
   const UpDirection up = samples.sequence().up();
   if (up.source != UpDirection::Source::kGiven || !can_tell_up(samples)) return {};
-  const GravityEvidence evidence = estimate_gravity(*samples.sequence().scans);
+  const GravityEvidence evidence = estimate_gravity(*samples.sequence().scans, up.direction);
   const double apart = degrees_between(up.direction, evidence.up.direction);
   if (evidence.ground.isZero() || apart < kContradiction) return {};
   return {
@@ -183,7 +183,7 @@ double float_step(double magnitude) {
 /// Points of a far world that were float32 once lie on a coarse lattice, however they are stored.
 std::vector<Finding> look_for_coarse_points(Samples& samples) {
   constexpr double kCoarse = 0.007, kExact = 0.02;
-  if (!samples.layout().points_in_world) return {};
+  if (!samples.points_in_world()) return {};
   for (const auto& [index, scan] : samples.scans()) {
     const Eigen::Vector3d position = scan.T_world_sensor.translation();
     Eigen::Index axis = 0;

@@ -34,8 +34,14 @@ std::vector<Check> skew_checks();
 std::vector<Check> world_checks();
 std::vector<Check> reach_checks();
 std::vector<Check> recording_checks();
+std::vector<Check> origin_checks();
+/// Measures `samples.pose_fit`, where no check before has found the poses to be of another kind.
+std::vector<Check> fit_checks();
 
 /// "hdl64e; the scans show 64 beams, 0.173 deg by 0.427 deg, ..."; "estimated: 64 beams, ...".
 std::string sensor_text(const Samples& samples);
+
+/// "poses fit to 0.02 m (median of 45 pairs of scans; ...)". @param samples with a `pose_fit`
+std::string pose_fit_text(const Samples& samples);
 
 }  // namespace raymoval::inspection

@@ -42,7 +42,8 @@ struct InspectionReport {
   std::string layout;
   std::size_t scans = 0;
   std::size_t scans_read = 0;
-  std::string sensor;  ///< What it is called, and what the scans show of it; empty if unknown.
+  std::string sensor;    ///< What it is called, and what the scans show of it; empty if unknown.
+  std::string pose_fit;  ///< "poses fit to 0.02 m (...)"; empty if it was not measured.
   std::vector<Finding> findings;
   /// How it was opened, and the topics of a recording, in whole sentences.
   std::vector<std::string> notes = {};

@@ -91,17 +91,6 @@ std::string percent(double share) {
   return fixed_text(100.0 * share, 0) + " %";
 }
 
-/// Middle of a scan's points, coordinate by coordinate.
-Eigen::Vector3d middle_of(const Scan& scan) {
-  Eigen::Vector3d middle;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    std::vector<float> values;
-    for (std::size_t i = 0; i < scan.size(); i += 10) values.push_back(scan.points[i][axis]);
-    middle[axis] = static_cast<double>(median(std::move(values)));
-  }
-  return middle;
-}
-
 /// Whether the points go where the poses go, as points of the world frame do. Traffic that drives
 /// along and a vehicle in view agree without poses, but stay around the sensor.
 bool points_follow_poses(const Samples& samples) {
@@ -244,6 +233,16 @@ PoseVerdict compare_hypotheses(Samples& samples) {
 }
 
 }  // namespace
+
+Eigen::Vector3d middle_of(const Scan& scan) {
+  Eigen::Vector3d middle;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < scan.size(); i += 10) values.push_back(scan.points[i][axis]);
+    middle[axis] = static_cast<double>(median(std::move(values)));
+  }
+  return middle;
+}
 
 const PoseVerdict& pose_verdict(Samples& samples) {
   if (!samples.pose_verdict) {

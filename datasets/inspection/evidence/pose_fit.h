@@ -16,4 +16,7 @@ namespace raymoval::inspection {
 /// little in common (empty fields, a blocked sensor), nothing is said.
 const PoseVerdict& pose_verdict(Samples& samples);
 
+/// Median of every tenth point of a scan, coordinate by coordinate.
+Eigen::Vector3d middle_of(const Scan& scan);
+
 }  // namespace raymoval::inspection

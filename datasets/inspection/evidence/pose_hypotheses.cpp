@@ -68,7 +68,7 @@ Pose camera_of(const Samples& samples) {
 
 /// Whether the poses are written with quaternions; in memory anything may have been.
 bool have_quaternions(const Samples& samples) {
-  if (samples.files().empty() || samples.layout().points_in_world) return true;
+  if (samples.files().empty() || samples.has_viewpoints()) return true;
   const auto folder = samples.files().front().path.parent_path();
   for (const auto& place : {folder, folder.parent_path()}) {
     const auto path = place / samples.sequence().poses_file;
@@ -92,7 +92,7 @@ void add_frame_hypotheses(const std::vector<Pose>& poses, const Pose& C,
 
 void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& all) {
   const auto& poses = samples.poses();
-  if (samples.layout().points_in_world) {
+  if (samples.points_in_world()) {
     all.push_back({"viewpoint-twice", "if VIEWPOINT is taken off the stored points once more",
                    [](std::size_t) { return Pose(Pose::Identity()); }});
     all.push_back({"viewpoint-missing", "once VIEWPOINT is applied to the stored points",
@@ -121,7 +121,7 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
          }});
   }
   for (const bool w_first : {true, false}) {
-    if (w_first == samples.layout().points_in_world || !quaternions) continue;
+    if (w_first == samples.has_viewpoints() || !quaternions) continue;
     all.push_back(
         {"quaternion-order",
          w_first ? "if quaternions are read as w x y z" : "if quaternions are read as x y z w",

@@ -17,8 +17,8 @@ constexpr std::size_t kSteps[] = {1, 3, 8};
 
 }  // namespace
 
-Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel)
-    : sequence_(sequence), layout_(layout_of(sequence)) {
+Samples::Samples(const Sequence& sequence, int threads, const std::atomic<bool>* cancel)
+    : sequence_(sequence), threads_(threads), cancel_(cancel), layout_(layout_of(sequence)) {
   if (const FileScanSource* files = file_source(sequence)) {
     files_ = files->frames();
   }
@@ -26,7 +26,7 @@ Samples::Samples(const Sequence& sequence, const std::atomic<bool>* cancel)
     poses_.push_back(sequence.scans->pose(i));
   }
   choose_pairs();
-  read_scans(cancel);
+  read_scans();
   measure_range();
   settle_point_unit();
 }
@@ -43,7 +43,7 @@ void Samples::choose_pairs() {
   for (const auto& [from, to] : chosen) pairs_.push_back({from, to});
 }
 
-void Samples::read_scans(const std::atomic<bool>* cancel) {
+void Samples::read_scans() {
   std::set<std::size_t> wanted;
   if (!poses_.empty()) wanted = {0, poses_.size() / 2, poses_.size() - 1};
   for (const ScanPair& pair : pairs_) {
@@ -51,7 +51,7 @@ void Samples::read_scans(const std::atomic<bool>* cancel) {
     wanted.insert(pair.to);
   }
   for (const std::size_t scan : wanted) {
-    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    if (cancel_ != nullptr && cancel_->load()) throw Cancelled();
     const auto& read = scans_.emplace(scan, sequence_.scans->load(scan)).first->second;
     if (read.points.empty()) throw DataError(scan_name(scan) + ": holds no point to look at.");
   }

@@ -13,6 +13,7 @@
 #include "datasets/geometry/surfels.h"
 #include "datasets/inspection/evidence/finding.h"
 #include "datasets/layouts.h"
+#include "datasets/registration/pose_fit.h"
 
 namespace raymoval::inspection {
 
@@ -32,10 +33,13 @@ struct PoseVerdict {
 /// evenly spread, with their points. The data is only read.
 class Samples {
  public:
+  /// @param threads for what reads more scans
   /// @throws DataError if a scan cannot be read; Cancelled
-  Samples(const Sequence& sequence, const std::atomic<bool>* cancel);
+  Samples(const Sequence& sequence, int threads, const std::atomic<bool>* cancel);
 
   [[nodiscard]] const Sequence& sequence() const { return sequence_; }
+  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] const std::atomic<bool>* cancel() const { return cancel_; }
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
   [[nodiscard]] const std::vector<Pose>& poses() const { return poses_; }
   /// Files of all scans; empty for a sequence that is not read from scan files.
@@ -54,6 +58,12 @@ class Samples {
   /// for.
   [[nodiscard]] const SensorModel& seen_sensor() const;
   [[nodiscard]] const Layout& layout() const { return layout_; }
+  /// Whether each scan file holds its pose.
+  [[nodiscard]] bool has_viewpoints() const { return layout_.pose_place == PosePlace::kScanFile; }
+  /// Whether these poses were applied to the stored points.
+  [[nodiscard]] bool points_in_world() const {
+    return has_viewpoints() && sequence_.records->point_frame() == PointFrame::kWorld;
+  }
 
   /// "000012.bin" or "scan 12".
   [[nodiscard]] std::string scan_name(std::size_t scan) const;
@@ -64,15 +74,19 @@ class Samples {
 
   /// The first check that needs it finds it.
   std::optional<PoseVerdict> pose_verdict;
+  /// Nothing if it was not measured, because something else is wrong.
+  std::optional<registration::PoseFit> pose_fit;
   std::vector<std::pair<std::string, double>> measures;
 
  private:
   void choose_pairs();
-  void read_scans(const std::atomic<bool>* cancel);
+  void read_scans();
   void measure_range();
   void settle_point_unit();
 
   const Sequence& sequence_;
+  int threads_;
+  const std::atomic<bool>* cancel_;
   const Layout& layout_;
   std::vector<FrameEntry> files_;
   std::vector<Pose> poses_;

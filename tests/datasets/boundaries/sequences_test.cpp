@@ -228,7 +228,6 @@ TEST_CASE("each layout says where its scans, poses and labels are", "[layouts]")
   CHECK(kitti.scan_folder == "velodyne");
   CHECK(kitti.calibration_file == "calib.txt");
   CHECK(kitti.pose_place == PosePlace::kRowOfFrameNumber);
-  CHECK_FALSE(kitti.points_in_world);
   CHECK_FALSE(kitti.labels_in_intensity);
   CHECK(kitti.class_names.contains(0));
   CHECK(kitti.class_names.contains(252));
@@ -246,7 +245,6 @@ TEST_CASE("each layout says where its scans, poses and labels are", "[layouts]")
   CHECK(world.scan_folder == "pcd");
   CHECK(world.calibration_file.empty());
   CHECK(world.pose_place == PosePlace::kScanFile);
-  CHECK(world.points_in_world);
   CHECK(world.labels_in_intensity);
   CHECK_FALSE(world.class_names.contains(0));
   CHECK_FALSE(world.class_names.contains(1));

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/text.h"
+#include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/pose_fit.h"
+#include "datasets/inspection/evidence/pose_hypotheses.h"
+
+namespace raymoval::inspection {
+namespace {
+
+using registration::PairDistance;
+using registration::PoseFit;
+
+/// Above these, methods remove more than 2 % of what stands (docs/poses.md has the measurements).
+constexpr double kMostUsual = 0.05, kMostOfPair = 0.07;  // metres
+
+const PairDistance& worst_pair(const PoseFit& fit) {
+  return *std::max_element(
+      fit.pairs.begin(), fit.pairs.end(),
+      [](const PairDistance& a, const PairDistance& b) { return a.distance_m < b.distance_m; });
+}
+
+bool is_wrong(const PairDistance& pair) {
+  return pair.distance_m > kMostOfPair;
+}
+
+/// If all wrong pairs lie across one jump: the last scan before it and the first one after it.
+std::optional<PairDistance> find_jump(const ScanSource& scans, const PoseFit& fit) {
+  std::optional<PairDistance> jump;
+  for (const PairDistance& pair : fit.pairs) {
+    if (!is_wrong(pair)) continue;
+    if (!jump) jump = pair;
+    jump->from = std::max(jump->from, pair.from);
+    jump->to = std::min(jump->to, pair.to);
+  }
+  if (!jump || jump->from >= jump->to) return std::nullopt;
+  while (jump->to - jump->from > 1) {
+    const std::size_t middle = jump->from + (jump->to - jump->from) / 2;
+    const bool before =
+        registration::measure_pair(scans, jump->from, middle) > 0.5 * jump->distance_m;
+    (before ? jump->to : jump->from) = middle;
+  }
+  return jump;
+}
+
+/// Frames on the longer side of a jump.
+std::string frames_beside(const Samples& samples, const PairDistance& jump) {
+  const bool before = jump.from + 1 >= samples.size() - jump.to;
+  return before ? samples.frame_name(0) + ":" + samples.frame_name(jump.from)
+                : samples.frame_name(jump.to) + ":" + samples.frame_name(samples.size() - 1);
+}
+
+std::string remedy_of(const Samples& samples, const PoseFit& fit) {
+  const std::string improve =
+      "Estimate the poses again with a SLAM program that closes loops (docs/poses.md names some).";
+  if (fit.distance_m > kMostUsual) return improve;
+  const auto jump = find_jump(*samples.sequence().scans, fit);
+  if (!jump) return improve;
+  return fmt::format(
+      "The poses jump between frames {} and {}: clean each side by itself (--frames {}). {}",
+      samples.frame_name(jump->from), samples.frame_name(jump->to), frames_beside(samples, *jump),
+      improve);
+}
+
+/// The scans under other poses.
+class ReposedScans : public ScanSource {
+ public:
+  ReposedScans(const ScanSource& scans, const PoseHypothesis& hypothesis)
+      : scans_(scans), hypothesis_(hypothesis) {}
+  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
+  [[nodiscard]] Pose pose(std::size_t index) const override { return hypothesis_.pose(index); }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan = scans_.load(index);
+    scan.T_world_sensor = pose(index);
+    return scan;
+  }
+  [[nodiscard]] const SensorModel& sensor() const override { return scans_.sensor(); }
+
+ private:
+  const ScanSource& scans_;
+  const PoseHypothesis& hypothesis_;
+};
+
+bool fits(const PoseFit& fit) {
+  return fit.distance_m <= kMostUsual && std::none_of(fit.pairs.begin(), fit.pairs.end(), is_wrong);
+}
+
+/// Scans that look alike along a street agree under wrong poses, too, but do not fit to the
+/// centimetre. So the usual mistakes of poses are tried again.
+std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
+  for (const PoseHypothesis& hypothesis : pose_hypotheses(samples)) {
+    const ReposedScans scans(*samples.sequence().scans, hypothesis);
+    const PoseFit fit = registration::measure_pose_fit(scans, samples.threads(), samples.cancel());
+    if (!fits(fit) || 2 * fit.pairs.size() < given.pairs.size()) continue;
+    for (const Check& check : pose_checks()) {
+      if (check.name != hypothesis.check) continue;
+      return Finding{.check = check.name,
+                     .what = fmt::format("{}, and to {} m {}", pose_fit_text(samples),
+                                         fixed_text(fit.distance_m, 3), hypothesis.phrase),
+                     .expected = check.expected,
+                     .remedy = hypothesis.remedy.empty() ? check.remedy : hypothesis.remedy};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Finding> look_at_fit(Samples& samples) {
+  if (samples.size() < 2 || samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) {
+    return {};
+  }
+  const PoseFit fit = registration::measure_pose_fit(*samples.sequence().scans, samples.threads(),
+                                                     samples.cancel());
+  samples.pose_fit = fit;
+  samples.measures.emplace_back("pose_fit_pairs", static_cast<double>(fit.pairs.size()));
+  if (fit.pairs.empty()) return {};
+  samples.measures.emplace_back("pose_fit_m", fit.distance_m);
+  samples.measures.emplace_back("pose_fit_worst_m", worst_pair(fit).distance_m);
+  samples.measures.emplace_back("pose_fit_noise_m", fit.noise_m);
+  if (fits(fit)) return {};
+  if (const auto finding = explained(samples, fit)) return {*finding};
+  const auto wrong = std::count_if(fit.pairs.begin(), fit.pairs.end(), is_wrong);
+  return {{.what = pose_fit_text(samples) + "; " +
+                   counted_text(static_cast<std::size_t>(wrong), "pair") + " above " +
+                   fixed_text(kMostOfPair, 2) + " m",
+           .remedy = remedy_of(samples, fit)}};
+}
+
+}  // namespace
+
+std::string pose_fit_text(const Samples& samples) {
+  const PoseFit& fit = *samples.pose_fit;
+  if (fit.pairs.empty()) return "no two scans overlap enough to tell how well poses fit";
+  const PairDistance& worst = worst_pair(fit);
+  return fmt::format(
+      "poses fit to {} m (median of {} of overlapping scans; worst {} m, frames {} and {}; noise "
+      "of the sensor {} m)",
+      fixed_text(fit.distance_m, 3), counted_text(fit.pairs.size(), "pair"),
+      fixed_text(worst.distance_m, 3), samples.frame_name(worst.from), samples.frame_name(worst.to),
+      fixed_text(fit.noise_m, 3));
+}
+
+std::vector<Check> fit_checks() {
+  return {{"poses-do-not-fit", "surfaces of overlapping scans lie apart under the poses",
+           fmt::format("surfaces that lie within {} m of each other, and within {} m in every pair",
+                       fixed_text(kMostUsual, 2), fixed_text(kMostOfPair, 2)),
+           "Estimate the poses again with a SLAM program that closes loops.", look_at_fit,
+           Consequence::kRefused}};
+}
+
+}  // namespace raymoval::inspection

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "core/sampling.h"
+#include "core/text.h"
+#include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/pose_fit.h"
+#include "datasets/registration/ray_origin.h"
+
+namespace raymoval::inspection {
+namespace {
+
+constexpr std::size_t kScans = 3, kFewestLines = 300;
+constexpr double kNear = 0.3;    // metres from the frame's origin that change no answer
+constexpr double kFound = 0.55;  // misfit that one origin reaches if all rays start there
+constexpr double kGain = 0.2;    // by which it must be lower than that of the frame's origin
+
+std::vector<Finding> look_for_ray_origin(Samples& samples) {
+  if (samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) return {};
+  std::vector<std::size_t> all;
+  for (const auto& [index, scan] : samples.scans()) all.push_back(index);
+  std::vector<Scan> chosen;
+  for (const std::size_t k : evenly_spread(all.size(), kScans)) {
+    chosen.push_back(samples.scans().at(all[k]));
+  }
+  const registration::RayOrigin found = registration::find_ray_origin(chosen);
+  const Eigen::Vector3d& at = found.origin;
+  samples.measures.emplace_back("ray_lines", static_cast<double>(found.lines));
+  samples.measures.emplace_back("ray_misfit_of_frame", found.misfit_given);
+  samples.measures.emplace_back("ray_misfit_found", found.misfit_found);
+  samples.measures.emplace_back("ray_origin_x", at.x());
+  samples.measures.emplace_back("ray_origin_y", at.y());
+  samples.measures.emplace_back("ray_origin_z", at.z());
+  if (found.lines < kFewestLines || at.norm() < kNear || found.misfit_found > kFound ||
+      found.misfit_given - found.misfit_found < kGain) {
+    return {};
+  }
+  const std::string x = fixed_text(at.x(), 2), y = fixed_text(at.y(), 2), z = fixed_text(at.z(), 2);
+  return {{.where = samples.all_frames(),
+           .what = fmt::format("scan lines show that the beams start at ({}, {}, {}) m and not at "
+                               "the origin of the points' frame",
+                               x, y, z),
+           .remedy = fmt::format("Say --sensor-origin {},{},{}.", x, y, z)}};
+}
+
+}  // namespace
+
+std::vector<Check> origin_checks() {
+  return {{"beams-start-elsewhere", "points are in the frame of a vehicle, not of the sensor",
+           "points whose origin is the sensor, where the beams start",
+           "Say --sensor-origin with the position of the sensor in the frame of the points.",
+           look_for_ray_origin, Consequence::kRefused}};
+}
+
+}  // namespace raymoval::inspection

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "core/scan/scan_source.h"
+#include "datasets/clouds/file_source.h"
+
+namespace raymoval {
+
+/// "1.2,0,1.8": metres in the frame of the points. @throws UsageError saying what the form is
+Eigen::Vector3d parse_sensor_origin(const std::string& text);
+
+/// What `parse_sensor_origin` reads.
+std::string sensor_origin_text(const Eigen::Vector3d& origin);
+
+/// Scans of another source whose points stand in the frame of a vehicle, brought to their sensor:
+/// `origin` is subtracted from the points, and T_world_sensor is moved by it. Axes stay. Points
+/// within 5 cm of the sensor are missing returns and left out.
+class SensorOriginSource : public ScanSource {
+ public:
+  SensorOriginSource(std::shared_ptr<const ScanSource> whole, const Eigen::Vector3d& origin);
+
+  [[nodiscard]] std::size_t size() const override { return whole_->size(); }
+  /// @throws DataError also if no point is left
+  [[nodiscard]] Scan load(std::size_t index) const override;
+  [[nodiscard]] Pose pose(std::size_t index) const override;
+  /// An estimated model is estimated again from the moved points.
+  [[nodiscard]] const SensorModel& sensor() const override;
+
+  [[nodiscard]] const ScanSource& whole() const { return *whole_; }
+
+ private:
+  std::shared_ptr<const ScanSource> whole_;
+  Eigen::Vector3d origin_;
+  SensorChoice sensor_;
+};
+
+}  // namespace raymoval

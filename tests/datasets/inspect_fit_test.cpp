@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Poses that are nearly right, and points that are not in the frame of their sensor.
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "datasets/open_sequence.h"
+#include "datasets/reading/sensor_origin.h"
+#include "tests/datasets/inspect_data.h"
+#include "tests/datasets/written_cloud.h"
+#include "tests/datasets/wrong_poses.h"
+
+using namespace raymoval;
+using namespace raymoval::test;
+
+namespace {
+
+/// The exact street of 50 scans, 1 m apart.
+InspectionReport inspect_street(const std::function<Eigen::Vector3d(std::size_t)>& error,
+                                const SequenceOptions& options = {}) {
+  Sequence street = make_street({}, street_boxes(), options);
+  street.scans = std::make_shared<WrongPoses>(error, options);
+  return inspect(street, 2);
+}
+
+Eigen::Vector3d right(std::size_t /*scan*/) {
+  return Eigen::Vector3d::Zero();
+}
+
+}  // namespace
+
+TEST_CASE("how well right poses fit is reported, and no finding", "[inspect]") {
+  const InspectionReport report = inspect_street(right);
+  check_silent(report);
+  CHECK_THAT(report.pose_fit, Catch::Contains("poses fit to 0.000 m (median of "));
+}
+
+TEST_CASE("a jump of the poses is found between two frames, and each side fits", "[inspect]") {
+  const auto jump = [](std::size_t scan) -> Eigen::Vector3d {
+    return {0.0, scan < 30 ? 0.0 : 0.5, 0.0};
+  };
+  // The longer side is that before the jump.
+  check_finds(inspect_street(jump), "poses-do-not-fit", "--frames 0:29)");
+  SequenceOptions before;
+  before.frames = parse_frame_range("0:29");
+  check_silent(inspect_street(jump, before));
+}
+
+TEST_CASE("noise of the poses, a climb and a drift to the side do not fit", "[inspect]") {
+  const auto noise = [](std::size_t scan) -> Eigen::Vector3d {
+    const auto level = [&](std::size_t step) {
+      return 0.15 * (static_cast<double>(scan * step % 5) - 2.0) / 1.4;  // RMS 0.15 m
+    };
+    return {0.0, level(3), level(2)};
+  };
+  check_finds(inspect_street(noise), "poses-do-not-fit", "SLAM");
+  const auto climb = [](std::size_t scan) -> Eigen::Vector3d {
+    return {0.0, 0.0, 0.02 * static_cast<double>(scan)};
+  };
+  check_finds(inspect_street(climb), "poses-do-not-fit");
+}
+
+TEST_CASE("points in the frame of a vehicle are named, and brought to their sensor on request",
+          "[inspect]") {
+  // The sensor stands 0.8 m ahead of the vehicle's origin, 0.3 m to its left and 1.7 m above it.
+  const Eigen::Vector3d sensor(0.8, 0.3, 1.7);
+  const Sequence street = make_street({}, street_boxes());
+  const TemporaryFolder folder;
+  std::string poses;
+  for (std::size_t i = 0; i < street.scans->size(); ++i) {
+    Scan scan = street.scans->load(i);
+    for (Eigen::Vector3f& point : scan.points) point += sensor.cast<float>();
+    write_cloud(folder / (scan.name + ".bin"), scan.points, std::vector<float>(scan.size()));
+    const Eigen::Vector3d t = scan.T_world_sensor.translation() - sensor;
+    poses += "1 0 0 " + number_text(t.x()) + " 0 1 0 " + number_text(t.y()) + " 0 0 1 " +
+             number_text(t.z()) + "\n";
+  }
+  folder.write("poses.txt", poses);
+  const InspectionReport report = inspect_path(folder.text(), {});
+  check_finds(report, "beams-start-elsewhere", "--sensor-origin 0.");
+  const std::string& remedy = report.findings[0].remedy;
+  const std::string text = remedy.substr(remedy.rfind(' ') + 1);
+  const Eigen::Vector3d advised = parse_sensor_origin(text.substr(0, text.size() - 1));
+  CHECK((advised - sensor).norm() < 0.15);
+
+  SequenceOptions options;
+  options.sensor_origin = sensor;
+  check_silent(inspect_path(folder.text(), options));
+  const Sequence brought = open_sequence(folder.text(), options);
+  CHECK(brought.record().sensor_origin == "0.8,0.3,1.7");
+  for (const std::size_t i : {std::size_t{0}, std::size_t{31}}) {
+    const Scan seen = brought.scans->load(i), truth = street.scans->load(i);
+    CHECK(seen.T_world_sensor.isApprox(truth.T_world_sensor, 1e-6));
+    CHECK(brought.scans->pose(i).isApprox(seen.T_world_sensor, 0.0));
+    REQUIRE(seen.size() == truth.size());
+    double most = 0.0;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      most = std::max<double>(most, (seen.points[k] - truth.points[k]).norm());
+    }
+    CHECK(most < 1e-5);
+  }
+}
+
+TEST_CASE("missing returns that were moved with their sensor are left out", "[inspect]") {
+  // A driver writes (0, 0, 0) where nothing came back, and a program moves it to the vehicle.
+  const TemporaryFolder folder;
+  write_cloud(folder / "000000.bin", {{1.2F, 0.0F, 1.8F}, {6.2F, 0.0F, 1.8F}}, {0.0F, 0.5F});
+  folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  SequenceOptions options;
+  options.sensor_origin = Eigen::Vector3d(1.2, 0.0, 1.8);
+  const Scan scan = open_sequence(folder.text(), options).scans->load(0);
+  REQUIRE(scan.size() == 1);
+  CHECK(scan.points[0].isApprox(Eigen::Vector3f(5.0F, 0.0F, 0.0F), 1e-6F));
+  CHECK(scan.stored_position(0) == 1);
+  CHECK(scan.T_world_sensor.translation().isApprox(*options.sensor_origin));
+
+  CHECK_THROWS_AS(parse_sensor_origin("1.2,0"), UsageError);
+  CHECK_THROWS_AS(parse_sensor_origin("1.2,0,up"), UsageError);
+  CHECK_THROWS_AS(parse_sensor_origin("1200,0,0"), UsageError);
+}
