@@ -17,6 +17,13 @@ struct EgoRecord {
   std::string left_out = {};  ///< What is left out for it.
 };
 
+/// How well the poses of a sequence fit its scans: the distance between surfaces of overlapping
+/// scans.
+struct PoseFitRecord {
+  double median_m = 0.0, worst_m = 0.0;
+  std::size_t pairs = 0;
+};
+
 /// What was read of a sequence and how. It has no path, because it is stored with results.
 struct DataRecord {
   std::string name = {};

@@ -82,6 +82,13 @@ void describe(Visitor& visitor, typename Visitor::template Of<DataRecord> data) 
 }
 
 template <class Visitor>
+void describe(Visitor& visitor, typename Visitor::template Of<PoseFitRecord> fit) {
+  visitor.field("median_m", fit.median_m);
+  visitor.field("worst_m", fit.worst_m);
+  visitor.field("pairs", fit.pairs);
+}
+
+template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<MethodRecord> method) {
   visitor.name("name", method.name);
   visitor.name("variant", method.variant);
@@ -202,6 +209,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<RepeatRecord> repe
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<SequenceRecord> sequence) {
   describe(visitor, sequence.data);
+  visitor.optional("pose_fit", sequence.pose_fit);
 }
 
 template <class Visitor>

@@ -17,6 +17,7 @@ struct SequenceRecord {
   /// Where it was found, with absolute paths. Only run.json has it; no value in files of earlier
   /// versions.
   std::optional<SequenceRequest> place = std::nullopt;
+  std::optional<PoseFitRecord> pose_fit = std::nullopt;  ///< No value until it was measured.
 };
 
 /// What a method of a run is a point of.

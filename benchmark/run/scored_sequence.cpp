@@ -6,6 +6,8 @@
 
 #include "benchmark/process/method_run.h"
 #include "core/files/files.h"
+#include "core/text.h"
+#include "datasets/registration/pose_fit.h"
 #include "eval/points/labelled_voxels.h"
 #include "eval/scan_passes.h"
 
@@ -60,6 +62,16 @@ ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
 
 }  // namespace
 
+std::string pose_fit_line(const std::optional<PoseFitRecord>& fit) {
+  if (!fit || (fit->median_m <= registration::kMostDistance &&
+               fit->worst_m <= registration::kMostDistanceOfPair)) {
+    return "";
+  }
+  return "poses fit to " + fixed_text(fit->median_m, 3) + " m (worst pair of scans " +
+         fixed_text(fit->worst_m, 3) + " m); where they do not, methods remove static points. " +
+         "`raymoval inspect` says more.";
+}
+
 ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests,
                                int threads, Progress* progress)
     : watched_(watched(std::move(sequence))), threads_(threads), progress_(progress) {
@@ -94,6 +106,16 @@ const std::string& ScoredSequence::data_fingerprint() {
     fingerprint_ = hasher.digest();
   }
   return fingerprint_;
+}
+
+std::optional<PoseFitRecord> ScoredSequence::measure_pose_fit(
+    const std::atomic<bool>* cancel) const {
+  // From the scans as they were opened: this does not count as a method's reading.
+  const Sequence& read = sequence();
+  const auto fit =
+      registration::measure_pose_fit(read.opened ? *read.opened : *read.scans, threads_, cancel);
+  if (fit.pairs.empty()) return std::nullopt;
+  return PoseFitRecord{fit.distance_m, registration::worst_pair(fit).distance_m, fit.pairs.size()};
 }
 
 const MaskStore& ScoredSequence::moving_points() {

@@ -27,6 +27,9 @@ struct SequenceScores {
   std::optional<Reliability> reliability = std::nullopt;  ///< If there is a confidence.
 };
 
+/// A warning if poses fit so badly that methods remove what stands; else empty.
+std::string pose_fit_line(const std::optional<PoseFitRecord>& fit);
+
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and
 /// labels is built when first needed, then shared by all methods. Once the fingerprint is known,
 /// cells may be scored on several threads at once.
@@ -46,6 +49,11 @@ class ScoredSequence {
 
   /// Hash of all that methods and protocols read; computed once. @throws DataError
   const std::string& data_fingerprint();
+
+  /// How well the poses fit the scans; nothing if no two scans overlap enough to tell.
+  /// @throws DataError if a scan cannot be read; Cancelled
+  [[nodiscard]] std::optional<PoseFitRecord> measure_pose_fit(
+      const std::atomic<bool>* cancel) const;
 
   /// The masks of an answer that removes exactly the moving points, from the reading that made the
   /// fingerprint. Their sizes are those of the scans. @throws DataError as `data_fingerprint`

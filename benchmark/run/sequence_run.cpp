@@ -132,8 +132,10 @@ void SequenceRuns::run(std::size_t sequence) {
 
 bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
   std::string fingerprint;
+  std::optional<PoseFitRecord> fit;
   try {
     fingerprint = scored.data_fingerprint();
+    fit = scored.measure_pose_fit(suite_.options().cancel);
   } catch (const DataError& error) {
     {
       const std::lock_guard lock(mutex_);
@@ -142,8 +144,10 @@ bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
     fail_all(sequence, error.what());
     return false;
   }
+  const std::string line = pose_fit_line(fit);
+  if (!line.empty()) suite_.say(scored.sequence().name + ": " + line);
   const std::lock_guard lock(mutex_);
-  const bool changed = set_fingerprint(folder_.record, scored.sequence().name, fingerprint);
+  const bool changed = set_reading(folder_.record, scored.sequence().name, fingerprint, fit);
   if (changed && !suite_.is_alone()) {
     write_run_record(suite_.options().out / "run.json", folder_.record);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/sampling.h"
 
@@ -18,24 +19,45 @@ constexpr double kStart = 2.5, kEnd = 8.5, kReach = 9.0;
 struct GroundPlane {
   Vector3d normal = Vector3d::UnitZ();
   double offset = -1.0;
+  double ceiling = std::numeric_limits<double>::infinity();  ///< Height of the lowest one, metres.
   [[nodiscard]] double height(const Vector3d& point) const { return normal.dot(point) - offset; }
 };
 
-/// Surfels of all scans that the ground may consist of, their axes towards the sensor: below it,
-/// and tilted by less than 60 degrees, as far as a sensor in a hand may be.
+/// Surfels of all scans that the ground may consist of, their axes up: not above the sensor (an
+/// origin of the points may lie on the ground), and tilted by less than 60 degrees, as far as a
+/// sensor in a hand may be.
 std::vector<Surfel> ground_candidates(
     std::size_t scans, const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
-  constexpr double kFarthest = 15.0, kLowest = 0.3, kTilted = 0.5;
+  constexpr double kFarthest = 15.0, kHighest = 0.3, kTilted = 0.5;
   std::vector<Surfel> candidates;
   for (std::size_t k = 0; k < scans; ++k) {
     for (Surfel surfel : surfels(k)) {
       if (surfel.is_line() || std::abs(surfel.axis.z()) < kTilted) continue;
       if (surfel.axis.z() < 0.0) surfel.axis = -surfel.axis;
-      if (surfel.mean.norm() > kFarthest || surfel.axis.dot(surfel.mean) > -kLowest) continue;
+      if (surfel.mean.norm() > kFarthest || surfel.axis.dot(surfel.mean) > kHighest) continue;
       candidates.push_back(surfel);
     }
   }
   return candidates;
+}
+
+/// Height of the ceiling above `ground`, which keeps its place as well; infinite if there is none.
+double ceiling_above(const GroundPlane& ground, std::size_t least, std::size_t scans,
+                     const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+  constexpr double kLevel = 0.98, kAboveSensor = 0.3;  // cosine of 11 degrees; metres
+  std::vector<double> heights;
+  for (std::size_t k = 0; k < scans; ++k) {
+    for (const Surfel& surfel : surfels(k)) {
+      if (surfel.is_line() || std::abs(surfel.axis.dot(ground.normal)) < kLevel) continue;
+      if (ground.normal.dot(surfel.mean) > kAboveSensor) {
+        heights.push_back(ground.height(surfel.mean));
+      }
+    }
+  }
+  if (heights.size() < least) return std::numeric_limits<double>::infinity();
+  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 10);
+  std::nth_element(heights.begin(), low, heights.end());
+  return *low;
 }
 
 /// The plane that most surfels of all scans lie on. A wall ahead of a tilted sensor may have as
@@ -64,18 +86,23 @@ GroundPlane ground_of(std::size_t scans,
   std::vector<double> offsets;
   for (const Surfel* surfel : best) offsets.push_back(plane.normal.dot(surfel->mean));
   plane.offset = median(std::move(offsets));
+  plane.ceiling = ceiling_above(plane, best.size() / 10 + 1, scans, surfels);
   return plane;
 }
 
-/// Cells of the sensor frame above the ground that hold points in nearly every one of `scans`.
+/// Cells of the sensor frame between ground and ceiling that hold points in nearly every one of
+/// `scans`.
 VoxelSet steady_cells(const std::vector<const Scan*>& scans, const GroundPlane& ground) {
-  constexpr double kAboveGround = 0.4, kNearlyAll = 0.85;
+  constexpr double kOffLevels = 0.4, kNearlyAll = 0.85;
   VoxelMap<std::size_t> seen;
   for (const Scan* scan : scans) {
     VoxelSet here;
     for (const Eigen::Vector3f& point : scan->points) {
       const Vector3d p = point.cast<double>();
-      if (!(p.norm() <= kReach) || ground.height(p) < kAboveGround) continue;
+      const double height = ground.height(p);
+      if (!(p.norm() <= kReach) || height < kOffLevels || height > ground.ceiling - kOffLevels) {
+        continue;
+      }
       here.insert(voxel_key(voxel_index(p, 1.0 / kEgoCell)));
     }
     for (const VoxelKey key : here) ++seen[key];

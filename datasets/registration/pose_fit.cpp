@@ -179,6 +179,17 @@ bool overlaps_enough(const Registration& found) {
 
 }  // namespace
 
+const PairDistance& worst_pair(const PoseFit& fit) {
+  return *std::max_element(
+      fit.pairs.begin(), fit.pairs.end(),
+      [](const PairDistance& a, const PairDistance& b) { return a.distance_m < b.distance_m; });
+}
+
+bool fits(const PoseFit& fit) {
+  return fit.pairs.empty() ||
+         (fit.distance_m <= kMostDistance && worst_pair(fit).distance_m <= kMostDistanceOfPair);
+}
+
 double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to) {
   const SurfaceCloud first(scans.load(from)), second(scans.load(to));
   const Registration found =

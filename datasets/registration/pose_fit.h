@@ -22,6 +22,16 @@ struct PoseFit {
   std::vector<PairDistance> pairs;  ///< Those with enough overlap, by `from`, then `to`.
 };
 
+/// Above these, methods remove more than 2 % of what stands (docs/poses.md has the measurements).
+inline constexpr double kMostDistance = 0.05;        // metres, of half the pairs
+inline constexpr double kMostDistanceOfPair = 0.07;  // metres
+
+/// The pair that fits worst. @param fit with pairs
+const PairDistance& worst_pair(const PoseFit& fit);
+
+/// Whether no distance is above the limits. True without pairs.
+bool fits(const PoseFit& fit);
+
 /// Measures how well the poses of `scans` fit: pairs of overlapping scans are registered, and the
 /// way by which that moves surfaces is the distance. Pairs cover the whole sequence: scans in
 /// succession, stations along the path, every fourth of these, and returns to a place. So a jump

@@ -2,10 +2,12 @@
 // Poses that are nearly right, and points that are not in the frame of their sensor.
 #include <cmath>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/sensor_origin.h"
+#include "tests/datasets/flat_world.h"
 #include "tests/datasets/inspect_data.h"
 #include "tests/datasets/written_cloud.h"
 #include "tests/datasets/wrong_poses.h"
@@ -117,4 +119,43 @@ TEST_CASE("missing returns that were moved with their sensor are left out", "[in
   CHECK_THROWS_AS(parse_sensor_origin("1.2,0"), UsageError);
   CHECK_THROWS_AS(parse_sensor_origin("1.2,0,up"), UsageError);
   CHECK_THROWS_AS(parse_sensor_origin("1200,0,0"), UsageError);
+}
+
+namespace {
+
+InspectionReport inspect_world(FlatWorld world) {
+  Sequence sequence;
+  sequence.name = "flat";
+  sequence.layout = "simulated";
+  sequence.scans = std::make_shared<FlatWorld>(std::move(world));
+  sequence.up_choice = std::make_shared<UpChoice>(std::nullopt);
+  return inspect(sequence);
+}
+
+}  // namespace
+
+TEST_CASE("floor and ceiling of a room are no part of the machine that carries the sensor",
+          "[inspect]") {
+  // A room of 7 x 6 m and 2.5 m in height, and a sensor in the hand, 1.2 m above the floor.
+  std::vector<Rectangle> room;
+  for (const double z : {0.0, 2.5}) room.push_back({{0, 0, z}, {3.5, 0, 0}, {0, 3, 0}});
+  for (const double y : {-3.0, 3.0}) room.push_back({{0, y, 1.25}, {3.5, 0, 0}, {0, 0, 1.25}});
+  for (const double x : {-3.5, 3.5}) room.push_back({{x, 0, 1.25}, {0, 3, 0}, {0, 0, 1.25}});
+  FlatWorld world;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = 45.0 * kDegree * i;
+    Pose pose(Eigen::Translation3d(1.8 * std::cos(angle), 1.4 * std::sin(angle), 1.2));
+    pose.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    world.scan(room, pose);
+  }
+  check_silent(inspect_world(world));
+}
+
+TEST_CASE("a straight tunnel says nothing about skew", "[inspect]") {
+  std::vector<Rectangle> tunnel;
+  for (const double z : {0.0, 6.0}) tunnel.push_back({{0, 0, z}, {300, 0, 0}, {0, 4, 0}});
+  for (const double y : {-4.0, 4.0}) tunnel.push_back({{0, y, 3}, {300, 0, 0}, {0, 0, 3}});
+  FlatWorld world;
+  for (int i = 0; i < 30; ++i) world.scan(tunnel, Pose(Eigen::Translation3d(1.5 * i, 0, 1.8)));
+  check_silent(inspect_world(world));
 }

@@ -43,6 +43,7 @@ struct ScoredProtocol {
 /// What `raymoval score` tells.
 struct ScoreRecord {
   DataRecord data;
+  std::optional<PoseFitRecord> pose_fit;
   std::optional<CloudRecord> cloud;  ///< No value where label files were scored.
   std::vector<ScoredProtocol> protocols;
   ColumnRecord columns;
@@ -149,6 +150,7 @@ std::string score_json(const ScoreRecord& record) {
   RecordWriter writer;
   writer.schema_version();
   writer.field("data", record.data);
+  writer.optional("pose_fit", record.pose_fit);
   writer.field("labels", record.cloud ? "nearest" : "index");
   writer.field("protocols", record.protocols);
   writer.optional("cloud", record.cloud);
@@ -290,6 +292,9 @@ ExitCode score(const ScoreFlags& flags) {
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
+  record.pose_fit = scored.measure_pose_fit(&interrupt_flag());
+  const std::string fit_line = pose_fit_line(record.pose_fit);
+  if (!fit_line.empty()) print_warning(fit_line);
   if (flags.cloud.empty()) {
     score_predictions(scored, flags.predictions, progress, record);
   } else {

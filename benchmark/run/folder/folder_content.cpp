@@ -179,11 +179,15 @@ std::string known_fingerprint(const RunRecord& record, const std::string& sequen
   return known == nullptr ? "" : known->data.fingerprint;
 }
 
-bool set_fingerprint(RunRecord& record, const std::string& sequence,
-                     const std::string& fingerprint) {
+bool set_reading(RunRecord& record, const std::string& sequence, const std::string& fingerprint,
+                 const std::optional<PoseFitRecord>& fit) {
   for (SequenceRecord& item : record.sequences) {
-    if (name_of(item) != sequence || item.data.fingerprint == fingerprint) continue;
+    if (name_of(item) != sequence) continue;
+    if (item.data.fingerprint == fingerprint && item.pose_fit.has_value() == fit.has_value()) {
+      return false;
+    }
     item.data.fingerprint = fingerprint;
+    item.pose_fit = fit;
     return true;
   }
   return false;
@@ -197,7 +201,7 @@ RunRecord merged_run_record(const RunRecord& present, const RunRecord& asked) {
   merged.controls = asked.controls || present.controls;
   for (const SequenceRecord& sequence : present.sequences) {
     const std::string& known = sequence.data.fingerprint;
-    if (!known.empty()) set_fingerprint(merged, name_of(sequence), known);
+    if (!known.empty()) set_reading(merged, name_of(sequence), known, sequence.pose_fit);
   }
   merged.cells = merged_cells(merged, present, asked);
   return merged;

@@ -31,9 +31,9 @@ void refuse_other_results(const std::filesystem::path& out, const std::string& w
 
 /// The fingerprint that a run.json has of a sequence; empty if it has none.
 std::string known_fingerprint(const RunRecord& record, const std::string& sequence);
-/// Puts a fingerprint into the record. @return whether that changed it
-bool set_fingerprint(RunRecord& record, const std::string& sequence,
-                     const std::string& fingerprint);
+/// Puts what was read of a sequence into the record. @return whether that changed it
+bool set_reading(RunRecord& record, const std::string& sequence, const std::string& fingerprint,
+                 const std::optional<PoseFitRecord>& fit);
 
 /// run.json of a folder to which the run `asked` is added: the sequences, methods and cells of
 /// both. Where both have one, it is that of `asked`; so are build and machine.

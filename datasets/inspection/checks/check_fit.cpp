@@ -15,17 +15,8 @@ namespace {
 using registration::PairDistance;
 using registration::PoseFit;
 
-/// Above these, methods remove more than 2 % of what stands (docs/poses.md has the measurements).
-constexpr double kMostUsual = 0.05, kMostOfPair = 0.07;  // metres
-
-const PairDistance& worst_pair(const PoseFit& fit) {
-  return *std::max_element(
-      fit.pairs.begin(), fit.pairs.end(),
-      [](const PairDistance& a, const PairDistance& b) { return a.distance_m < b.distance_m; });
-}
-
 bool is_wrong(const PairDistance& pair) {
-  return pair.distance_m > kMostOfPair;
+  return pair.distance_m > registration::kMostDistanceOfPair;
 }
 
 /// If all wrong pairs lie across one jump: the last scan before it and the first one after it.
@@ -57,7 +48,7 @@ std::string frames_beside(const Samples& samples, const PairDistance& jump) {
 std::string remedy_of(const Samples& samples, const PoseFit& fit) {
   const std::string improve =
       "Estimate the poses again with a SLAM program that closes loops (docs/poses.md names some).";
-  if (fit.distance_m > kMostUsual) return improve;
+  if (fit.distance_m > registration::kMostDistance) return improve;
   const auto jump = find_jump(*samples.sequence().scans, fit);
   if (!jump) return improve;
   return fmt::format(
@@ -84,10 +75,6 @@ class ReposedScans : public ScanSource {
   const ScanSource& scans_;
   const PoseHypothesis& hypothesis_;
 };
-
-bool fits(const PoseFit& fit) {
-  return fit.distance_m <= kMostUsual && std::none_of(fit.pairs.begin(), fit.pairs.end(), is_wrong);
-}
 
 /// Scans that look alike along a street agree under wrong poses, too, but do not fit to the
 /// centimetre. So the usual mistakes of poses are tried again.
@@ -125,7 +112,7 @@ std::vector<Finding> look_at_fit(Samples& samples) {
   const auto wrong = std::count_if(fit.pairs.begin(), fit.pairs.end(), is_wrong);
   return {{.what = pose_fit_text(samples) + "; " +
                    counted_text(static_cast<std::size_t>(wrong), "pair") + " above " +
-                   fixed_text(kMostOfPair, 2) + " m",
+                   fixed_text(registration::kMostDistanceOfPair, 2) + " m",
            .remedy = remedy_of(samples, fit)}};
 }
 
@@ -146,7 +133,8 @@ std::string pose_fit_text(const Samples& samples) {
 std::vector<Check> fit_checks() {
   return {{"poses-do-not-fit", "surfaces of overlapping scans lie apart under the poses",
            fmt::format("surfaces that lie within {} m of each other, and within {} m in every pair",
-                       fixed_text(kMostUsual, 2), fixed_text(kMostOfPair, 2)),
+                       fixed_text(registration::kMostDistance, 2),
+                       fixed_text(registration::kMostDistanceOfPair, 2)),
            "Estimate the poses again with a SLAM program that closes loops.", look_at_fit,
            Consequence::kRefused}};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -17,9 +18,10 @@ namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kFarPairs = 8, kFewestFarPairs = 3;
-constexpr double kDistance = 6.0;  // metres of way between the scans of a pair
-constexpr double kReach = 0.1;     // metres; skew moves surfaces by decimetres
-constexpr double kClear = 1.03;    // on good data undoing a skew makes the agreement worse
+constexpr double kDistance = 6.0;      // metres of way between the scans of a pair
+constexpr double kReach = 0.1;         // metres; skew moves surfaces by decimetres
+constexpr double kLeastAcross = 0.05;  // share of surfels
+constexpr double kClear = 1.03;        // on good data undoing a skew makes the agreement worse
 
 /// How a sensor may sweep once around.
 struct Sweep {
@@ -78,6 +80,17 @@ std::vector<ScanPair> far_pairs(const Samples& samples) {
   return chosen;
 }
 
+/// Share of surfels that show how far the sensor goes along its way: planes that face it, and poles
+/// that stand across. Along a tunnel, skew changes nothing.
+double share_across(const std::vector<Surfel>& surfels, const Pose& motion) {
+  const Eigen::Vector3d way = motion.translation().normalized();
+  const auto across = std::count_if(surfels.begin(), surfels.end(), [&](const Surfel& surfel) {
+    const double along = std::abs(surfel.axis.dot(way));
+    return surfel.is_line() ? along < 0.9 : along > 0.3;
+  });
+  return surfels.empty() ? 0.0 : static_cast<double>(across) / static_cast<double>(surfels.size());
+}
+
 double registered(const std::vector<Surfel>& from, const std::vector<Surfel>& to,
                   const Pose& motion) {
   const SurfaceMap map(from);
@@ -123,6 +136,14 @@ std::vector<Finding> look_for_skew(Samples& samples) {
   if (!pose_verdict(samples).check.empty()) return {};
   const std::vector<ScanPair> pairs = far_pairs(samples);
   if (pairs.size() < kFewestFarPairs) return {};
+  double across = 0.0;
+  for (const ScanPair& pair : pairs) {
+    across += share_across(samples.surfels(pair.from),
+                           samples.poses()[pair.from].inverse() * samples.poses()[pair.to]) /
+              static_cast<double>(pairs.size());
+  }
+  samples.measures.emplace_back("share_of_surfels_across_way", across);
+  if (across < kLeastAcross) return {};
   const SkewFit fit = fit_sweeps(samples, pairs);
   std::size_t best = 0;
   for (std::size_t k = 1; k < kSweeps.size(); ++k) {

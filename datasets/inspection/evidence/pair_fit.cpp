@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/inspection/evidence/pair_fit.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -162,18 +164,19 @@ bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen) 
   return !seen.empty() && 4 * same >= 3 * seen.size();
 }
 
-std::vector<Eigen::Matrix3d> turns_on_body(const Samples& samples,
-                                           const std::vector<SeenMotion>& seen) {
-  constexpr double kLeast = 1.0;  // metres of way, all pairs together
+namespace {
+
+/// R_body_sensor for a sensor at `position` on the body: about z, and any.
+std::array<Eigen::Matrix3d, 2> turns_on_body(const Samples& samples,
+                                             const std::vector<SeenMotion>& seen,
+                                             const Eigen::Vector3d& position) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  double way = 0.0;
   for (const SeenMotion& one : seen) {
     const Pose given = given_motion(samples, one.pair);
-    moments += given.translation() * one.motion.translation().transpose();
+    const Eigen::Vector3d way = given * position - position;  // Of the sensor, in the body's frame.
+    moments += way * one.motion.translation().transpose();
     moments += kTurnLever * kTurnLever * turn_vector(given) * turn_vector(one.motion).transpose();
-    way += one.motion.translation().norm();
   }
-  if (way < kLeast) return {};
   const double yaw = std::atan2(moments(1, 0) - moments(0, 1), moments(0, 0) + moments(1, 1));
   const Eigen::Matrix3d upright =
       Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -181,6 +184,46 @@ std::vector<Eigen::Matrix3d> turns_on_body(const Samples& samples,
   Eigen::Matrix3d proper = Eigen::Matrix3d::Identity();
   proper(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0.0 ? 1.0 : -1.0;
   return {upright, svd.matrixU() * proper * svd.matrixV().transpose()};
+}
+
+/// Least squares of (R_given - I) t = R_body_sensor t_seen - t_given.
+Eigen::Vector3d position_on_body(const Samples& samples, const std::vector<SeenMotion>& seen,
+                                 const Eigen::Matrix3d& turn) {
+  constexpr double kLeastTurn = 0.2;  // radians, all pairs together: else noise decides
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sides = Eigen::Vector3d::Zero();
+  for (const SeenMotion& one : seen) {
+    const Pose given = given_motion(samples, one.pair);
+    const Eigen::Matrix3d part = given.linear() - Eigen::Matrix3d::Identity();
+    squares += part.transpose() * part;
+    sides += part.transpose() * (turn * one.motion.translation() - given.translation());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (solver.eigenvalues()[k] < kLeastTurn * kLeastTurn) continue;
+    const Eigen::Vector3d direction = solver.eigenvectors().col(k);
+    position += direction.dot(sides) / solver.eigenvalues()[k] * direction;
+  }
+  return position;
+}
+
+}  // namespace
+
+std::vector<Pose> mounts_on_body(const Samples& samples, const std::vector<SeenMotion>& seen) {
+  constexpr double kLeast = 1.0;  // metres of way, all pairs together
+  constexpr int kRounds = 5;
+  double way = 0.0;
+  for (const SeenMotion& one : seen) way += one.motion.translation().norm();
+  if (way < kLeast) return {};
+  std::vector<Pose> mounts(2, Pose::Identity());
+  for (std::size_t k = 0; k < mounts.size(); ++k) {
+    for (int round = 0; round < kRounds; ++round) {
+      mounts[k].linear() = turns_on_body(samples, seen, mounts[k].translation())[k];
+      mounts[k].translation() = position_on_body(samples, seen, mounts[k].linear());
+    }
+  }
+  return mounts;
 }
 
 std::string turn_text(const Eigen::Matrix3d& turn) {
@@ -194,12 +237,15 @@ std::string turn_text(const Eigen::Matrix3d& turn) {
          " degrees";
 }
 
-std::string mounting_text(const Eigen::Matrix3d& turn) {
-  Eigen::Quaterniond q(turn);
+std::string mounting_text(const Pose& mount) {
+  Eigen::Quaterniond q(mount.linear());
   if (q.w() < 0.0) q.coeffs() *= -1.0;
-  std::string text = "0,0,0";
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) text += ',' + rounded_text(value, 1e-5);
-  return text;
+  std::vector<std::string> numbers;
+  for (const double metres : mount.translation()) numbers.push_back(rounded_text(metres, 1e-3));
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) {
+    numbers.push_back(rounded_text(value, 1e-5));
+  }
+  return join(numbers, ",");
 }
 
 }  // namespace raymoval::inspection

@@ -101,16 +101,17 @@ class PairFit {
 /// does not depend on how the sensor is turned on the body that has the poses.
 bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen);
 
-/// R_body_sensor under which the poses of a body move as the scans do, whatever the position of the
-/// sensor on the body: first the best turn about z, then the best of all turns, which a motion
-/// along nearly one line leaves open. Nothing if the scans hardly move.
-std::vector<Eigen::Matrix3d> turns_on_body(const Samples& samples,
-                                           const std::vector<SeenMotion>& seen);
+/// T_body_sensor under which the poses of a body move as the scans do (hand-eye calibration, Park
+/// and Martin 1994, with turns and ways weighed by `kTurnLever`): first with the best turn about z,
+/// then with the best of all turns, which a motion along nearly one line leaves open. The position
+/// is 0 in directions that the turns of the body do not show; there it changes no motion, either.
+/// Nothing if the scans hardly move.
+std::vector<Pose> mounts_on_body(const Samples& samples, const std::vector<SeenMotion>& seen);
 
 /// "90 degrees about z", or roll, pitch and yaw.
 std::string turn_text(const Eigen::Matrix3d& turn);
 
-/// "0,0,0,0,0,0.70711,0.70711": what `--T-sensor` says of a sensor in the middle of the body.
-std::string mounting_text(const Eigen::Matrix3d& turn);
+/// "0.85,0,0,0,0,0.70711,0.70711": what `--T-sensor` says of it.
+std::string mounting_text(const Pose& mount);
 
 }  // namespace raymoval::inspection

@@ -76,14 +76,13 @@ bool in_camera_axes(Samples& samples) {
   return extent(samples, 1) < 0.7 * extent(samples, 2);
 }
 
-/// Motions alone do not tell points in camera axes from poses that were taken to a camera.
+/// Motions alone do not tell points in camera axes from poses that were taken to a camera. Points
+/// and poses that are both in camera axes fit each other, and nothing is wrong.
 void look_at_axes(Samples& samples, PoseVerdict& verdict) {
-  if (!verdict.check.empty() && verdict.check != "lidar-poses-as-camera") return;
-  if (!in_camera_axes(samples)) return;
+  if (verdict.check != "lidar-poses-as-camera" || !in_camera_axes(samples)) return;
   verdict.what =
       "the ground lies along +y of the points: they stand in camera axes (x right, y down, z "
-      "ahead)" +
-      std::string(verdict.check.empty() ? ", and so do the poses" : ", but the poses do not");
+      "ahead), but the poses do not";
   verdict.check = "camera-frame";
 }
 
@@ -131,21 +130,21 @@ std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
                                             const std::vector<SeenMotion>& seen) {
   const auto& poses = samples.poses();
   std::vector<PoseHypothesis> all;
-  for (const Eigen::Matrix3d& turn : turns_on_body(samples, seen)) {
-    PoseHypothesis hypothesis{
-        "poses-of-a-body",
-        "if the sensor is turned by " + turn_text(turn) + " on the body that has the poses",
-        [&poses, turn](std::size_t i) {
-          Pose pose = poses[i];
-          pose.linear() *= turn;
-          return pose;
-        }};
+  for (const Pose& mount : mounts_on_body(samples, seen)) {
+    PoseHypothesis hypothesis{"poses-of-a-body",
+                              "if the sensor is turned by " + turn_text(mount.linear()) +
+                                  " on the body that has the poses",
+                              [&poses, mount](std::size_t i) { return Pose(poses[i] * mount); }};
     if (samples.sequence().T_sensor) {
       hypothesis.remedy =
-          "Multiply the pose of --T-sensor by " + mounting_text(turn) + ", from the right.";
+          "Multiply the pose of --T-sensor by " + mounting_text(mount) + ", from the right.";
     } else if (!samples.sequence().T_camera_lidar) {
-      hypothesis.remedy = "Say --T-sensor " + mounting_text(turn) +
-                          ", with the position of the sensor on the body instead of the zeros.";
+      hypothesis.remedy = "Say --T-sensor " + mounting_text(mount) + ".";
+      if (mount.translation().isZero()) {
+        hypothesis.remedy +=
+            " The sensor turns too little to tell its position on the body; put "
+            "it in place of the zeros if you know it.";
+      }
     }
     all.push_back(std::move(hypothesis));
   }

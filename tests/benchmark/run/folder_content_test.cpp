@@ -142,9 +142,10 @@ TEST_CASE("A fingerprint tells other data of the same name") {
   CHECK(known_fingerprint(run, "highway").empty());
   CHECK(known_fingerprint(run, "nowhere").empty());
   CHECK(why_other_data(run, "highway", "f").empty());  // It is not known.
-  CHECK(set_fingerprint(run, "highway", "f"));
-  CHECK_FALSE(set_fingerprint(run, "highway", "f"));
-  CHECK_FALSE(set_fingerprint(run, "nowhere", "f"));
+  CHECK(set_reading(run, "highway", "f", {}));
+  CHECK_FALSE(set_reading(run, "highway", "f", {}));
+  CHECK(set_reading(run, "highway", "f", PoseFitRecord{0.02, 0.05, 30}));
+  CHECK_FALSE(set_reading(run, "nowhere", "f", {}));
   CHECK(known_fingerprint(run, "town").empty());
   CHECK(known_fingerprint(run, "highway") == "f");
   CHECK(why_other_data(run, "highway", "f").empty());
