@@ -39,7 +39,6 @@ had better
 (stands?|stood|goes on|goes|had been)
 looked (at|for)
 a (row|line|bit|point|scan|pixel|voxel|second|turn) (a|an|each)
-(nothing|nobody) (is|has|of)
 (has|have) a say
 the own
 '
