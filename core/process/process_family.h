@@ -11,11 +11,11 @@
 
 namespace raymoval {
 
-/// The environment variable that tells the members of a family: it holds the mark of each family
-/// that a process belongs to.
+/// The environment variable that identifies the members of a family. It holds the mark of each
+/// family that a process belongs to.
 inline constexpr const char* kFamilyVariable = "RAYMOVAL_PROCESS_FAMILY";
 
-/// A process with all that it has started, directly or through others.
+/// A process with all processes that it started, directly or through others.
 ///
 /// Members are found in four ways, since each of them can be left: as descendants of the head, by
 /// its session, by a mark in the environment that they inherit, and as foster children of this
