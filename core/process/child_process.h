@@ -76,8 +76,8 @@ std::string not_started_text(int reason);
 /// "signal 11 (Segmentation fault)".
 std::string signal_text(int signal);
 
-/// The signal by which users and systems ask programs to end (SIGINT, SIGTERM, SIGHUP), if that is
-/// how a child ended: by the signal itself, or by the exit code that shells make of it; else 0.
+/// The signal (SIGINT, SIGTERM or SIGHUP) that ended a child, directly or by the exit code that
+/// shells derive from it; else 0.
 int asking_signal(const ChildEnd& end);
 
 }  // namespace raymoval
