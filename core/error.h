@@ -6,16 +6,16 @@
 
 namespace raymoval {
 
-/// What the program answers to its caller.
+/// Exit codes of the program.
 enum class ExitCode {
-  kDone = 0,      ///< Everything asked for was done.
+  kDone = 0,      ///< Done.
   kWorse = 1,     ///< A comparison found a regression, or a cell failed.
   kCannotDo = 2,  ///< Cannot be done as asked: usage, data or configuration.
   kInternal = 3,  ///< A fault of this program.
 };
 
-/// Root of every error raised by raymoval. The message says what is wrong, where (file, byte or
-/// line, scan), what was expected, and what to do about it.
+/// Root of every error raised by raymoval. The message names the fault, the place (file, byte or
+/// line, scan), the expected input, and a remedy.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, ExitCode code = ExitCode::kCannotDo)
@@ -26,7 +26,7 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// The command line or a call asks for something that does not exist or makes no sense.
+/// The command line or the arguments of a call are wrong.
 class UsageError : public Error {
  public:
   explicit UsageError(const std::string& message) : Error(message) {}
@@ -50,7 +50,7 @@ class MethodError : public Error {
   explicit MethodError(const std::string& message) : Error(message, ExitCode::kWorse) {}
 };
 
-/// The run was asked to stop.
+/// The run was cancelled.
 class Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled before the end", ExitCode::kWorse) {}

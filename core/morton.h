@@ -5,9 +5,9 @@
 
 namespace raymoval {
 
-/// The lowest 21 bits of `value` with two zeros between each. Of three coordinates, combined by
-/// shifts of 0, 1 and 2, this makes a Morton code: what stands together in space stands together in
-/// the order of codes.
+/// The lowest 21 bits of `value` with two zeros between each. Three coordinates, combined by shifts
+/// of 0, 1 and 2, give a Morton code: places that are close in space are close in the order of
+/// codes.
 constexpr std::uint64_t spread_bits(std::uint64_t value) {
   value &= 0x1FFFFF;
   value = (value | value << 32) & 0x1F00000000FFFF;

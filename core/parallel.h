@@ -10,9 +10,9 @@ namespace raymoval {
 int hardware_threads();
 
 /// Runs `body(begin, end)` over [0, count) cut into chunks of `grain` on at most `threads` threads.
-/// The cuts depend on `count` and `grain` only, so whatever is computed per chunk and combined in
-/// chunk order is the same for any number of threads. The first exception (of the lowest chunk)
-/// is rethrown.
+/// The chunks depend on `count` and `grain` only. So values that are computed per chunk and
+/// combined in chunk order are the same for any number of threads. The first exception (of the
+/// lowest chunk) is rethrown.
 void parallel_chunks(int threads, std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body);
 

@@ -19,13 +19,13 @@ using ParameterValue = std::variant<bool, std::int64_t, double, std::string>;
 /// All parameters of a method with their values, in the order of their table.
 using Configuration = std::vector<std::pair<std::string, ParameterValue>>;
 
-/// What is said about a parameter besides its name, type and default.
+/// The description of a parameter, without name, type and default.
 struct ParameterNotes {
   std::string unit = "";  ///< "m", "rad", "points"; empty for a ratio or a flag.
   double minimum = -std::numeric_limits<double>::infinity();  ///< Legal range, ends included.
   double maximum = std::numeric_limits<double>::infinity();
   std::string source = "";    ///< Paper, section, equation or table; "" = our own choice.
-  std::string sentence = "";  ///< One sentence on what it does.
+  std::string sentence = "";  ///< The effect in one sentence.
   /// When the parameter has an effect, such as "erase is true and erase_height > 0"; "" = always,
   /// "never" = it changes time or memory only. See core/parameter_condition.h.
   std::string acts_when = "";

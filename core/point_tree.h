@@ -34,7 +34,7 @@ class PointTree {
     Number square = 0;
     nanoflann::KNNResultSet<Number, std::uint32_t> found(1);
     found.init(&number, &square);
-    square = reach * reach;  // Of the set so far: nothing farther away is looked for.
+    square = reach * reach;  // Of the present set. Points farther away are not searched.
     search(query, found);
     return found.size() == 0 ? nullptr : &table_.points[number];
   }

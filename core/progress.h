@@ -9,7 +9,7 @@
 
 namespace raymoval {
 
-/// How progress is told on standard error.
+/// How progress is shown on standard error.
 enum class ProgressStyle {
   kQuiet,     ///< Not at all.
   kLog,       ///< A line every half minute.
@@ -21,24 +21,24 @@ ProgressStyle progress_style_of_stderr();
 
 /// How far a task is.
 struct ProgressState {
-  std::string context;    ///< What it is part of; may be empty.
+  std::string context;    ///< The larger task that it belongs to; may be empty.
   std::string task;       ///< Empty before the first task.
   std::size_t done = 0;   ///< Steps.
   std::size_t total = 0;  ///< Steps; 0 when the task has ended.
-  std::size_t tasks = 0;  ///< Tasks begun so far: it tells a task from the next one of its name.
+  std::size_t tasks = 0;  ///< Number of tasks begun; distinguishes two tasks of one name.
 
   bool operator==(const ProgressState&) const = default;
 };
 
-/// Tells how far a long task is. Thread-safe.
+/// Shows the progress of a long task. Thread-safe.
 class Progress {
  public:
-  /// @param stream where it is told; stays open as long as this lives
+  /// @param stream receives the text; must outlive this object
   explicit Progress(ProgressStyle style = ProgressStyle::kQuiet, std::FILE* stream = stderr)
       : style_(style), stream_(stream) {}
   [[nodiscard]] ProgressStyle style() const { return style_; }
-  /// What the following tasks are part of, such as "[2/10] octomap:ground on town"; stands before
-  /// each of them. Empty: nothing.
+  /// The larger task of the following tasks, such as "[2/10] octomap:ground on town", which is
+  /// printed before each of them; may be empty.
   void set_context(const std::string& context);
   [[nodiscard]] std::string context();
   /// Starts a task of `total` steps, such as "raymoval:online on 05".
@@ -46,7 +46,7 @@ class Progress {
   void advance(std::size_t steps = 1);
   /// Ends the task; on a terminal its line is cleared.
   void end();
-  /// How far the task is, for those who show it themselves.
+  /// The state of the task, for callers that show it themselves.
   [[nodiscard]] ProgressState state();
   /// Prints a line of its own, not mixed with a progress line.
   void say(const std::string& line);

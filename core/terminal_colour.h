@@ -8,7 +8,7 @@
 
 namespace raymoval {
 
-/// What a colour says. The words say it too: nothing is told by colour alone.
+/// The meaning of a colour. The text has the same meaning without colour.
 enum class TerminalColour {
   kGood,    ///< Green: done, better.
   kBad,     ///< Red: an error, failed, worse.
@@ -23,8 +23,8 @@ bool shows_colours(std::FILE* stream);
 /// `text` in a colour if `stream` shows colours, else `text`.
 std::string coloured(const std::string& text, TerminalColour colour, std::FILE* stream);
 
-/// `text` as it may go to `stream` whoever wrote it: line breaks and tabs stay, and the colours of
-/// `coloured` if the stream shows them; all else that a terminal would obey goes the way of
+/// Untrusted `text` made safe for `stream`: line breaks and tabs stay, and the colours of
+/// `coloured` if the stream shows them. Other control characters are replaced as by
 /// `printable_text`.
 std::string terminal_text(const std::string& text, std::FILE* stream);
 

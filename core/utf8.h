@@ -17,9 +17,9 @@ std::size_t character_count(const std::string& text);
 /// The first `most` bytes of a UTF-8 text, or a few less, so that no character is cut in two.
 std::string cut_text(const std::string& text, std::size_t most);
 
-/// The text as valid UTF-8 that can be shown: ASCII's control characters become blanks. What is no
-/// UTF-8, other control characters, and those that are invisible or change the direction of writing
-/// become U+FFFD.
+/// The text as valid UTF-8 that can be shown: ASCII's control characters become blanks. Bytes that
+/// are no UTF-8, other control characters, invisible characters and changes of the direction of
+/// writing become U+FFFD.
 std::string printable_text(const std::string& text);
 
 /// `printable_text` for XML or HTML, also within quotes: '&', '<', '>' and '"' are escaped.

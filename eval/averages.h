@@ -27,10 +27,10 @@ struct Mean {
 /// The values of a rate on each segment. A segment on which the rate is undefined has none.
 using SegmentValues = std::vector<std::optional<double>>;
 
-/// The mean of the values that are there.
+/// The mean of the present values.
 Mean mean_of(const SegmentValues& values);
 
-/// What `combine` gives for the means of two rates over the segments that have both.
+/// `combine` of the means of two rates over the segments that have both.
 /// @param first,second values of the same segments
 Mean combined_means(const SegmentValues& first, const SegmentValues& second,
                     double (*combine)(double, double));

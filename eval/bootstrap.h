@@ -20,7 +20,7 @@ struct BootstrapOptions {
   std::uint64_t seed = 20260101;  ///< Of the draws.
 };
 
-/// The values between which a rate would lie if other scans of the same drive had been taken.
+/// The interval in which a rate would lie for other scans of the same drive.
 struct Interval {
   std::string name;  ///< Of the rate.
   std::optional<double> low, high;

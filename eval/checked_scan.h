@@ -20,7 +20,7 @@ struct CheckedScan {
   [[nodiscard]] bool removed(std::size_t point) const { return !mask.empty() && mask[point] != 0; }
 };
 
-/// Loads scan `index` with what belongs to it.
+/// Loads scan `index` with its labels and its mask.
 /// @param masks null: the scan gets no mask
 /// @throws MethodError if the mask is missing or has the wrong length
 /// @throws DataError if the labels do not fit the scan

@@ -25,7 +25,7 @@ namespace raymoval {
 class CloudEstimate;
 struct CheckedScan;
 
-/// What a protocol scores against: posed scans, a label word for each point, and what labels mean.
+/// The truth of a protocol: posed scans, a label word for each point, and the meaning of labels.
 struct EvaluationInput {
   const ScanSource* scans = nullptr;
   const LabelSource* labels = nullptr;
@@ -39,14 +39,14 @@ struct EvaluationInput {
   const std::atomic<bool>* cancel = nullptr;  ///< Set when scoring is to stop; null: it never is.
 };
 
-/// @param asker stands in the message
+/// @param asker is named in the message
 /// @throws DataError if `input` has no labels
 void check_input(const EvaluationInput& input, const std::string& asker);
 
 /// Counts by name, with a value for each scan.
 using CountsByScan = std::vector<std::pair<std::string, std::vector<std::int64_t>>>;
 
-/// What a protocol says of an answer. The rates follow from the counts.
+/// The score of an answer by a protocol. The rates follow from the counts.
 struct ProtocolResult {
   std::string protocol;
   std::vector<std::pair<std::string, std::int64_t>> counts;
@@ -55,8 +55,7 @@ struct ProtocolResult {
   /// Of the protocol's main rates, by block bootstrap over scans; nothing if the protocol does not
   /// draw any.
   std::optional<Intervals> intervals = std::nullopt;
-  /// Counts of each scan, in order; nothing of a protocol in which scans do not stand for
-  /// themselves.
+  /// Counts of each scan, in order; nothing if a protocol does not count scan by scan.
   CountsByScan by_scan = {};
 
   /// @throws InternalError if there is no such count.
@@ -65,35 +64,34 @@ struct ProtocolResult {
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
 };
 
-/// Looks at all scans of an answer, in passes: a pass shows it each scan once. All that look at the
+/// Reads all scans of an answer, in passes: a pass gives it each scan once. All visitors of the
 /// same answer share its passes, so that a scan is read once for all of them (`run_passes`).
 class ScanVisitor {
  public:
   virtual ~ScanVisitor() = default;
-  /// Whether its next pass takes so much memory that it had better come when others are done with
-  /// theirs. Those that do not wait have their passes first; of those that wait the first has its
-  /// own until it needs no other one.
+  /// True if the next pass needs much memory and should run last. Visitors without this have their
+  /// passes first. Then each of the others has all of its passes in turn.
   [[nodiscard]] virtual bool waits_for_others() const { return false; }
   /// Prepares the next pass.
   /// @param slots how many scans may be in work at a time
   /// @return false if no further pass is needed
   virtual bool begin_pass(std::size_t slots) = 0;
-  /// Looks at a scan and leaves in `slot` what `take` needs. Several threads call it at a time,
+  /// Reads a scan and stores the input of `take` in `slot`. Several threads call it at a time,
   /// each with a slot of its own, also while another thread is in `take`.
   virtual void read(const CheckedScan& scan, std::size_t slot) = 0;
-  /// Takes in what `read` left in `slot`. It is called once a scan, in the order of the scans.
+  /// Adds the result of `read` in `slot`. It is called once per scan, in the order of the scans.
   virtual void take(std::size_t slot) = 0;
 };
 
 /// The scoring of one answer by one protocol.
 class Scoring : public ScanVisitor {
  public:
-  /// What the passes add up to. Called once, after the last pass.
+  /// The score. Called once, after the last pass.
   [[nodiscard]] virtual ProtocolResult result() = 0;
 };
 
-/// A protocol opened for one sequence. It holds what depends on scans and labels only, so one
-/// scorer serves all methods. Several threads may score answers with it at a time.
+/// A protocol opened for one sequence. It holds the data that depends on scans and labels only, so
+/// one scorer serves all methods. Several threads may score answers with it at a time.
 class Scorer {
  public:
   explicit Scorer(EvaluationInput input) : input_(std::move(input)) {}
@@ -108,8 +106,8 @@ class Scorer {
   /// @throws MethodError if a mask is missing or has the wrong length
   [[nodiscard]] ProtocolResult score(const MaskStore& masks) const;
   /// Scores a cleaned map without labels that was made elsewhere. Labels are found again by nearest
-  /// neighbour, so the result must not stand in one table with scores by masks. A protocol that
-  /// does not override this function scores no clouds.
+  /// neighbour, so the result must not be in one table with scores of masks. A protocol that does
+  /// not override this function scores no clouds.
   /// @param cloud points in the world frame of the scans' poses
   /// @throws UsageError if the protocol or its options rule it out
   [[nodiscard]] virtual ProtocolResult score_cloud(const CloudEstimate& cloud) const;
@@ -121,15 +119,15 @@ class Scorer {
   EvaluationInput input_;
 };
 
-/// What a protocol is: all that the program needs to know of it.
+/// The description of a protocol.
 struct ProtocolEntry {
   std::string name;
   std::string version;  ///< Raised when counts may change.
   std::string sentence;
   std::string bibtex = {};  ///< Of the paper that it comes from.
   std::vector<ParameterSpec> parameters;
-  std::vector<RateSpec> rates;    ///< All that its results may have, in the order of tables.
-  std::vector<CountSpec> counts;  ///< All that its results may have.
+  std::vector<RateSpec> rates;    ///< All rates that its results may have, in the order of tables.
+  std::vector<CountSpec> counts;  ///< All counts that its results may have.
   /// Opens the protocol for a sequence. The input's scans, labels and progress outlive the scorer.
   /// @throws DataError if there is nothing to score against (no point is left after cropping)
   std::function<std::unique_ptr<Scorer>(const EvaluationInput&, const Configuration& options)> open;
@@ -148,7 +146,7 @@ struct ProtocolEntry {
 class Protocol {
  public:
   /// @param entry must outlive this object
-  /// @param options those that are not given have their defaults
+  /// @param options options that are not given have their defaults
   /// @throws ConfigurationError for an unknown option
   Protocol(const ProtocolEntry& entry, const Configuration& options);
 

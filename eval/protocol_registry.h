@@ -19,8 +19,8 @@ inline std::string without_protocol_prefix(const std::string& name) {
   return name.substr(name.starts_with(kProtocolPrefix) ? kProtocolPrefix.size() : 0);
 }
 
-// The protocols that the program knows: the built-in ones, then those that a program or a test
-// registers. Everything that shows, compares or checks a rate asks here what the rate is.
+// The protocols of the program: the built-in ones, then the ones that a program or a test
+// registers. All code that shows, compares or checks a rate reads its definition here.
 
 const std::deque<ProtocolEntry>& protocol_entries();
 
@@ -30,7 +30,7 @@ const ProtocolEntry* find_protocol(const std::string& name);
 /// The same. @throws UsageError suggesting the nearest name if there is none
 const ProtocolEntry& protocol_entry(const std::string& name);
 
-/// The name of the protocol that scores where none is asked for.
+/// The name of the default protocol.
 const std::string& default_protocol();
 
 /// Options of the protocol called `name` at their defaults. @throws UsageError as `protocol_entry`
@@ -41,7 +41,7 @@ std::unique_ptr<Protocol> make_protocol(const std::string& name, const Configura
 
 /// Adds a protocol of a program's own, for instance at the beginning of its main function.
 /// @throws ConfigurationError if the name is taken, if a rate follows from one that the protocol
-/// does not have, or if another protocol says something else of a rate or count of the same name
+/// does not have, or if another protocol defines a rate or count of the same name differently
 /// @note No other thread may use the registry meanwhile.
 void register_protocol(ProtocolEntry entry);
 
@@ -51,11 +51,11 @@ void unregister_protocol(const std::string& name);
 /// The rates of all protocols, in the order of the protocols.
 const std::vector<RateSpec>& rate_specs();
 
-/// What the rate called `name` is; null if no protocol has such a rate.
+/// The definition of the rate called `name`; null if no protocol has such a rate.
 const RateSpec* find_rate_spec(const std::string& name);
 
-/// What the rate called `name` is. A rate that no protocol has is secondary and in percent;
-/// `find_rate_spec` tells whether it is known which direction is better.
+/// The definition of the rate called `name`. A rate that no protocol has is secondary and in
+/// percent, and `find_rate_spec` does not find it: its better direction is unknown.
 RateSpec rate_spec(const std::string& name);
 
 /// A rate as it is displayed: "98.123", F1 "0.9812".

@@ -9,13 +9,13 @@ namespace raymoval {
 
 enum class RateUnit { kPercent, kFraction };
 
-/// What a rate says of an answer.
+/// The role of a rate.
 enum class RateRole {
-  kKept,      ///< How much of what stands is kept, or lost if lower is better.
-  kRemoved,   ///< How much of what moves is removed, or left if lower is better.
+  kKept,      ///< Share of static points that are kept, or lost if lower is better.
+  kRemoved,   ///< Share of moving points that are removed, or left if lower is better.
   kHeadline,  ///< Both in one number. Methods are ranked by it.
   kMean,      ///< Another mean of both.
-  kSecondary  ///< A rate of a part of the points. It is shown only where it is asked for.
+  kSecondary  ///< A rate of a part of the points. It is shown only on request.
 };
 
 /// An answer whose rates are known before it is scored.
@@ -24,23 +24,23 @@ enum class KnownAnswer { kNothingRemoved, kEverythingRemoved, kMovingPointsRemov
 /// How a rate follows from two others.
 struct RateFormula {
   std::string first, second;  ///< Names of the two rates.
-  std::string rule;           ///< What it is called: "harmonic_mean".
+  std::string rule;           ///< Name of the rule: "harmonic_mean".
   double (*combine)(double, double) = nullptr;
-  /// Whether tables also show what `combine` gives for the means of the two rates, as
-  /// "F1_of_means". It is another number than the mean of the combined rates.
+  /// Whether tables also show `combine` of the means of the two rates, as "F1_of_means". This
+  /// number differs from the mean of the combined rates.
   bool shown_of_means = false;
 
   bool operator==(const RateFormula&) const = default;
 };
 
-/// What a rate is. Tables, charts, comparisons and logs read it here.
+/// The definition of a rate, for tables, charts, comparisons and logs.
 struct RateSpec {
   std::string name;
   RateUnit unit = RateUnit::kPercent;
   int decimals = 3;
   bool higher_is_better = true;
   RateRole role = RateRole::kSecondary;
-  /// What the rate must be for each known answer. It has no value where that depends on the data.
+  /// What the rate must be for each known answer. It has no value if that depends on the data.
   std::optional<double> nothing_removed = {}, everything_removed = {}, moving_points_removed = {};
   std::optional<RateFormula> formula = {};
   std::string note = {};  ///< A sentence that explains the rate below a table, if it needs one.
@@ -57,7 +57,7 @@ struct RateSpec {
   bool operator==(const RateSpec&) const = default;
 };
 
-/// What a count is.
+/// The definition of a count.
 struct CountSpec {
   std::string name;
   /// Whether the count follows from scans and labels, so that no mask can change it.

@@ -19,11 +19,11 @@ void in_scan_order(const EvaluationInput& input, const std::string& task, std::s
                    const std::function<void(std::size_t scan, std::size_t slot)>& read,
                    const std::function<void(std::size_t slot)>& take);
 
-/// How many slots keep all of the input's threads at work.
+/// Number of slots that keep all of the input's threads busy.
 std::size_t usual_slots(const EvaluationInput& input);
 
 /// Shows the scans of an answer to all visitors, pass after pass, until none needs another one. A
-/// scan is loaded once a pass, for all of them.
+/// scan is loaded once per pass, for all of them.
 /// @throws MethodError if a mask is missing or has the wrong length
 /// @throws DataError if the labels of a scan do not fit it; Cancelled
 void run_passes(const EvaluationInput& input, const MaskStore& masks,

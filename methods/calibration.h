@@ -7,9 +7,10 @@
 
 namespace raymoval {
 
-/// How the evidence that a method gives of points (`EvidenceSink`) becomes a confidence: the share
-/// of such points that move. The curve was made with labels, over simulated worlds
-/// (scripts/calibrate.cpp), and needs none.
+/// Converts the evidence that a method gives for points (`EvidenceSink`) to a confidence: the share
+/// of points with this evidence that move. The curve is fitted to labelled sequences of equal
+/// weight by isotonic regression. Its groups are then joined to 14 knots, each time the two whose
+/// union lowers the likelihood least. Using the curve needs no labels.
 struct Calibration {
   struct Knot {
     float evidence = 0.0F;

@@ -64,7 +64,7 @@ fi
 "${stage[@]}"
 [[ -z $report ]] || rm -rf "$work"  # Before the server takes the place of this script.
 mkdocs --quiet build --strict --config-file "$staged/mkdocs.yml"
-python3 -B scripts/site/check_site.py "$out/site"
+python3 -B scripts/site/stage.py --check "$out/site"
 echo "docs.sh: the site is $out/site/index.html"
 [[ -n $serve ]] || exit 0
 echo "docs.sh: http://localhost:8000"

@@ -22,9 +22,9 @@ struct NumberRange {
 /// key and what was expected.
 class Fields {
  public:
-  /// @param json has to live as long as this object
-  /// @param keys those that are known, between blanks. Any other is an error that suggests the
-  ///   nearest of them.
+  /// @param json must outlive this object
+  /// @param keys the legal keys, separated by blanks. Any other key is an error that suggests the
+  /// nearest legal key.
   Fields(const nlohmann::json& json, std::string where, std::string_view keys);
 
   [[nodiscard]] bool has(const std::string& key) const;

@@ -15,12 +15,12 @@
 
 namespace raymoval {
 
-/// What stands at a path, links followed.
+/// The kind of entry at a path. Links are followed.
 enum class FileKind { kAbsent, kFile, kFolder };
 
-/// The system cannot say or give what stands at a path: no rights, or a disk that does not answer.
-/// Such a path is neither absent nor damaged, so what may do without an absent or a damaged file
-/// must not do without this one.
+/// The system cannot read a path: no rights, or a disk that does not respond. The path is neither
+/// absent nor damaged, so code that continues without an absent or damaged file must not continue
+/// here.
 class UnreadableError : public DataError {
  public:
   using DataError::DataError;
@@ -32,10 +32,10 @@ class UnreadableError : public DataError {
 /// Whether the system's error number means that nothing of a name exists.
 bool means_absent(int reason);
 
-/// Looks at `path` without opening it. It is absent only if the system says that nothing of this
-/// name exists.
-/// @throws UnreadableError for a path that cannot be looked at (no rights, a disk that does not
-/// answer, links in a circle); DataError for everything else that is no file and no folder: a link
+/// The kind of `path`, found without opening it. A path is absent only if the system reports that
+/// this name does not exist.
+/// @throws UnreadableError for a path that cannot be examined (no rights, a disk that does not
+/// respond, links in a circle); DataError for everything else that is no file and no folder: a link
 /// that leads nowhere (also one in the middle of the path), a pipe, a socket, a device
 FileKind file_kind(const std::filesystem::path& path);
 
@@ -44,29 +44,29 @@ bool is_file(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_there(const std::filesystem::path& path);
 
-/// Whether the file or folder `path` exists, for what may be left out but must be what its name
-/// says. @throws DataError as file_kind, and if it is a folder in place of a file or the reverse
+/// Whether the optional file or folder `path` exists. @throws DataError as file_kind, and if it is
+/// a folder in place of a file or the reverse
 bool has_file(const std::filesystem::path& path);
 bool has_folder(const std::filesystem::path& path);
 
 /// Bytes of the file `path`. @throws DataError as file_kind, and if it is absent or a folder
 std::uintmax_t plain_file_size(const std::filesystem::path& path);
 
-/// Paths of all that stands in `folder`, not below it, in order of name; what an entry is has not
-/// been looked at. @throws UnreadableError if the folder cannot be listed to its end
+/// Paths of all entries in `folder`, not below it, in order of name. The kinds of the entries are
+/// not examined. @throws UnreadableError if the folder cannot be listed to its end
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 
 /// The folders among them; links to nothing are left out. @throws DataError
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder);
 
-/// The folder in which `path` stands. A slash at the end of `path` does not count.
+/// The folder that contains `path`. A slash at the end of `path` is ignored.
 std::filesystem::path folder_of(const std::filesystem::path& path);
 
 /// `path` without a slash at its end, which would follow a link and hide its last name.
 std::filesystem::path without_slash(const std::filesystem::path& path);
 
-/// What `read` gives; nothing if what it reads is absent or damaged, so that it must do without.
-/// @throws UnreadableError, which says neither
+/// The result of `read`; nothing if the file is absent or damaged.
+/// @throws UnreadableError, which means neither
 template <class Read>
 std::optional<std::invoke_result_t<Read>> if_whole(Read&& read) {
   try {
@@ -85,7 +85,7 @@ void remove_if_there(const std::filesystem::path& path);
 /// Whether `path` is a link. @throws UnreadableError
 bool is_link(const std::filesystem::path& path);
 
-/// What tells the file or folder at `path` from all others, whatever its names; nothing if there is
+/// The identity of the file or folder at `path`, the same for all of its names; nothing if there is
 /// none. @throws UnreadableError
 std::optional<std::pair<dev_t, ino_t>> identity_of(const std::filesystem::path& path);
 

@@ -8,18 +8,18 @@
 
 namespace raymoval {
 
-/// An advisory lock on a file (flock), which ends with the process however that ends: what a dead
-/// process left is taken over. The file only tells who holds the lock, and goes away with it.
+/// An advisory lock on a file (flock). The lock ends with its process, also if the process is
+/// killed. The file only names the holder, and is removed with the lock.
 class FileLock {
  public:
   enum class Mode {
     kShared,     ///< Others may hold it too, as long as all share it.
-    kExclusive,  ///< Nobody else.
+    kExclusive,  ///< Only one holder.
   };
   enum class State {
     kHeld,
-    kBusy,     ///< Somebody else holds it.
-    kNoLocks,  ///< The file system has no locks: nobody can be asked.
+    kBusy,     ///< Another process holds it.
+    kNoLocks,  ///< The file system has no locks.
   };
 
   /// Nothing is locked, opened or made before `take`.
@@ -29,7 +29,7 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
   /// Takes the lock if it is free; does not wait.
-  /// @throws DataError if the file cannot be made, or the system cannot say whether it is free
+  /// @throws DataError if the file cannot be made, or the system cannot find out whether it is free
   State take(Mode mode);
 
   /// "process 123 on somewhere", as the holder wrote it.
@@ -38,7 +38,7 @@ class FileLock {
 
  private:
   void open();
-  /// Takes away a file that was made for nothing.
+  /// Removes a file that was made in vain.
   void remove_if_new();
   [[nodiscard]] bool is_still_there() const;
   void write_holder() const;

@@ -22,8 +22,9 @@ std::string read_text(const std::filesystem::path& path);
 /// Up to `size` bytes of a file from `offset` on; fewer where it ends before. @throws as read_bytes
 std::string read_piece(const std::filesystem::path& path, std::uintmax_t offset, std::size_t size);
 
-/// Writes `content` so that `path` either keeps what it held or holds all of it: temporary file in
-/// the same folder, fsync, rename, fsync of the folder. @throws DataError (disk full, no rights).
+/// Writes `content` so that `path` has either the old content or all of the new content: temporary
+/// file in the same folder, fsync, rename, fsync of the folder. @throws DataError (disk full, no
+/// rights).
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// For a file that a user names and that is written after long work.

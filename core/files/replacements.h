@@ -10,8 +10,8 @@
 namespace raymoval {
 
 /// Finished files and folders that get their names together, or none of them, as far as the file
-/// system allows that. What stood there before is removed when all have their names, and gets its
-/// own back if one cannot have it.
+/// system allows that. Replaced files are removed when all new files have their names. If one
+/// cannot get its name, the replaced files get theirs back.
 class Replacements {
  public:
   Replacements() = default;
@@ -23,16 +23,16 @@ class Replacements {
   /// @param part all of it is on the disk. It belongs to this object from now on.
   void add(Part part, std::filesystem::path target);
 
-  /// @throws DataError that names what could not get its name, and what of the rest was changed
+  /// @throws DataError that lists which file could not get its name, and which others were changed
   void commit();
 
  private:
-  /// How a part got its name, which tells how it is taken back.
+  /// How a part got its name, which decides how the name is taken back.
   enum class Way { kNone, kNew, kExchanged, kAside };
   struct One {
     Part part;
     std::filesystem::path target;
-    std::filesystem::path aside;  ///< Where the one before stands, if not under the part's name.
+    std::filesystem::path aside;  ///< Path of the replaced file, if it is not the part's name.
     Way way = Way::kNone;
   };
 

@@ -14,10 +14,10 @@ inline constexpr const char* kMethodFolder = "raymoval-external";      ///< Exte
 /// The folder for temporary files: TMPDIR, or /tmp if that is not set.
 std::filesystem::path scratch_root();
 
-/// A new folder below `scratch_root()` that only this user can enter. It goes with this object,
-/// with all that is in it. A process that is killed leaves its folder behind; then its lock is free
-/// (see `new_part_folder`), and `remove_abandoned_scratch_folders` or the next process that makes
-/// such a folder removes it.
+/// A new folder below `scratch_root()` that only this user can enter. It is removed with this
+/// object. A process that is killed leaves its folder behind. Its lock is then free (see
+/// `new_part_folder`), and `remove_abandoned_scratch_folders` or the next process that makes such a
+/// folder removes it.
 class ScratchFolder {
  public:
   /// @param purpose one of the names above

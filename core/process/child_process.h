@@ -24,7 +24,8 @@ struct ChildSetup {
   std::string program = kThisProgram;  ///< The path of its file.
   std::vector<std::string> arguments;  ///< The first one is the program's own name.
   std::filesystem::path folder = {};   ///< Its working folder; empty: that of this process.
-  /// Variables besides those of this process, or in place of them.
+  /// Variables in addition to the variables of this process; they replace variables of the same
+  /// name.
   std::vector<std::pair<std::string, std::string>> environment = {};
   /// {this process's, the child's}: 3 and above, or 1 and 2 for output that is not to be caught.
   std::vector<std::pair<int, int>> descriptors = {};
@@ -47,21 +48,21 @@ struct ChildEnd {
   };
   Kind kind = Kind::kExited;
   int code = 0;              ///< Exit code, number of the signal, or system's error number.
-  std::string output_tail;   ///< The end of what it printed on standard output and error.
+  std::string output_tail;   ///< The end of its standard output and error.
   double largest_mib = 0.0;  ///< The largest memory that was seen.
   /// What a message about memory has to add; empty, or a sentence that begins with a blank.
   std::string memory_note;
 };
 
-/// Runs a program as a child process, waits for its end, and ends all that it has started and left
-/// behind, as it does when a limit is exceeded or the child is cancelled.
+/// Runs a program as a child process, waits for its end, and ends all processes that it started and
+/// left behind, as it does when a limit is exceeded or the child is cancelled.
 ///
 /// The child is a new program and not a mere fork, since threads of this process (TBB's) would be
 /// missing in a fork, and its memory would count as the child's. It gets a session of its own, no
 /// standard input, no descriptor that `setup` does not name, the default for each signal, and no
 /// core file; it dies with the thread that called this. Memory is watched from here every 20 ms and
 /// not limited by RLIMIT_AS or RLIMIT_DATA, which count what is mapped and never touched (thread
-/// stacks, arenas, a sanitizer's shadow). The working folder is looked at about once a second.
+/// stacks, arenas, a sanitizer's shadow). The working folder is measured about once a second.
 ///
 /// Until this returns, this process is the foster parent of its descendants (see `FosterParent`).
 /// It waits for its child and that child's descendants only, so that this may be called beside
@@ -75,8 +76,8 @@ std::string not_started_text(int reason);
 /// "signal 11 (Segmentation fault)".
 std::string signal_text(int signal);
 
-/// The signal by which users and systems ask programs to end (SIGINT, SIGTERM, SIGHUP), if that is
-/// how a child ended: by the signal itself, or by the exit code that shells make of it; else 0.
+/// The signal (SIGINT, SIGTERM or SIGHUP) that ended a child, directly or by the exit code that
+/// shells derive from it; else 0.
 int asking_signal(const ChildEnd& end);
 
 }  // namespace raymoval

@@ -9,16 +9,17 @@
 
 namespace raymoval {
 
-/// Says when something may be looked at again that takes long to look at.
+/// Limits how often a slow measurement is repeated.
 class Pace {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param rest at least this time is left between two looks, and ten times what the last one took
+  /// @param rest at least this time is left between two measurements, and ten times the duration of
+  /// the last one
   explicit Pace(std::chrono::milliseconds rest) : rest_(rest) {}
 
   [[nodiscard]] bool is_due() const { return Clock::now() >= next_; }
-  /// Whether it may be looked at before it is due, for a good reason.
+  /// Whether it may be measured early, for a good reason.
   [[nodiscard]] bool may_hurry() const { return Clock::now() >= earliest_; }
   void begin() { begun_ = Clock::now(); }
   void end();
@@ -30,14 +31,14 @@ class Pace {
 
 /// Measures the memory of a family of processes again and again, at little cost.
 ///
-/// Memory is what the system would have back if the family ended, without that of files on a disk:
-/// what processes share, after a fork or through shared memory, counts once (the sum of Pss_Anon
-/// and Pss_Shmem), and so do files in a file system without a disk (/dev/shm, memfd) that the
-/// family holds open without mapping them and that were written since it began. Such a file counts
-/// nothing when it is neither open nor mapped: nothing tells then whose it is.
+/// This is the memory that the system would regain if the family ended, without files on a disk.
+/// Memory that processes share, after a fork or through shared memory, counts once (the sum of
+/// Pss_Anon and Pss_Shmem). Files in a file system without a disk (/dev/shm, memfd) also count once
+/// if the family has them open without mapping them and they were written since the family began.
+/// Such a file does not count if it is neither open nor mapped, because its owner is then unknown.
 ///
-/// The system counts shares by walking through all pages, so they are only looked at if the sum of
-/// what each process has (RssAnon and RssShmem), which is never less, exceeds the limit.
+/// The system computes shares by a walk through all pages. So they are only read if the sum of
+/// RssAnon and RssShmem of all processes, which is never less, exceeds the limit.
 class FamilyMemory {
  public:
   /// @param limit_mib 0 means that there is none
@@ -47,8 +48,8 @@ class FamilyMemory {
   /// than their memory.
   [[nodiscard]] double measure(const std::vector<pid_t>& members);
 
-  /// Whether a process did not let its shares be read (/proc/PID/smaps_rollup), so that what it
-  /// shares counts as often as it has it.
+  /// Whether the shares of a process could not be read (/proc/PID/smaps_rollup), so that shared
+  /// memory counts for each process.
   [[nodiscard]] bool counts_shares_in_full() const { return counts_shares_in_full_; }
 
  private:
@@ -59,7 +60,7 @@ class FamilyMemory {
   timespec began_{};
   Pace share_pace_, file_pace_;
   double files_mib_ = 0.0;
-  double last_share_mib_ = 0.0, sum_then_mib_ = 0.0;  ///< Of the last look at shares.
+  double last_share_mib_ = 0.0, sum_then_mib_ = 0.0;  ///< Of the last measurement of shares.
   bool counts_shares_in_full_ = false;
 };
 

@@ -7,14 +7,14 @@
 
 namespace raymoval {
 
-/// While one of these lives, this process is the foster parent of all below it whose own parent
-/// ends (PR_SET_CHILD_SUBREAPER): what a child leaves behind when it ends comes here and not to the
-/// system's first process, where nobody could find it.
+/// While an object of this class lives, this process is the foster parent of its descendants whose
+/// parent ends (PR_SET_CHILD_SUBREAPER). Processes that a child leaves behind then become children
+/// of this process, where they can be found, and not of the system's first process.
 ///
-/// This process may have children that have nothing to do with it: those of other threads, of a
-/// program that uses this library, and what these leave behind. They are never waited for or
-/// ended. A child of a family is told from them by its oom_score_adj, which heads of families are
-/// given, which descendants inherit, and which only the system's administrator can take back.
+/// This process may have other children: children of other threads or of a program that uses this
+/// library, and processes that these left behind. They are never waited for or ended. A child of a
+/// family is recognised by its oom_score_adj. Heads of families get it, descendants inherit it, and
+/// only the system's administrator can lower it.
 class FosterParent {
  public:
   FosterParent();
@@ -26,12 +26,12 @@ class FosterParent {
   /// also lets the system end the child and not this process when memory runs out.
   [[nodiscard]] int score() const { return score_; }
 
-  /// Says that this child is a head and no foster child.
+  /// Notes that this child is a head and no foster child.
   void set_head(pid_t head);
 
-  /// The foster children. Those that have ended are waited for, so that they are found only once.
-  /// Which family they are of cannot be told, so there are none as long as another family runs too:
-  /// the last one ends them.
+  /// The foster children. Ended foster children are waited for, so that they are found only once.
+  /// Their family is unknown, so the list is empty as long as another family runs, too: the last
+  /// family ends them.
   [[nodiscard]] std::vector<pid_t> foster_children() const;
 
  private:

@@ -8,15 +8,15 @@
 
 namespace raymoval {
 
-/// Takes what comes out of a pipe and keeps the last 4 KiB of it.
+/// Reads a pipe and keeps the last 4 KiB.
 class OutputTail {
  public:
   explicit OutputTail(Descriptor pipe);
 
-  /// The pipe to wait for; -1 once nobody can write to it any more.
+  /// The pipe to wait for; -1 when all writers have closed it.
   [[nodiscard]] int pipe() const { return pipe_.get(); }
-  /// Takes what is there without waiting, but at most 4 MiB: a program that never stops printing
-  /// must not hold up the clock.
+  /// Reads the available bytes without waiting, but at most 4 MiB, so that a program that never
+  /// stops printing does not delay the time limit.
   void drain();
   /// The last 4 KiB. If there was more, the text starts with a whole line where that is possible.
   [[nodiscard]] std::string text() const;

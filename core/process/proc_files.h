@@ -26,7 +26,7 @@ std::optional<double> proc_mib_sum(const std::filesystem::path& file,
 /// The folder of a process below /proc.
 std::filesystem::path proc_folder(pid_t process);
 
-/// How a process is doing.
+/// The state of a process.
 struct ProcessState {
   char letter = 'X';  ///< As in /proc/PID/stat: 'Z' is a zombie, 'X' is gone.
   pid_t parent = 0;
@@ -41,13 +41,13 @@ ProcessState process_state(pid_t process);
 std::vector<pid_t> all_processes();
 
 /// The children of all threads of a process, zombies too. If the kernel does not list them
-/// (CONFIG_PROC_CHILDREN), all processes are asked for their parent.
+/// (CONFIG_PROC_CHILDREN), the parents of all processes are read.
 std::vector<pid_t> children_of(pid_t process);
-/// The same by asking all processes.
+/// The same, from the parents of all processes.
 std::vector<pid_t> children_by_parent(pid_t process);
 
-/// The memory of the machine in MiB, or of the control group if that has less. It is 0 if the
-/// system does not tell.
+/// The memory of the machine in MiB, or of the control group if that has less. It is 0 if it is
+/// unknown.
 double machine_memory_mib();
 
 /// The limit on memory, in MiB, that holds where the user gives none: nine tenths of

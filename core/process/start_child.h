@@ -14,12 +14,12 @@ namespace raymoval {
 struct StartedChild {
   pid_t process = -1;  ///< -1 if it could not be started.
   int reason = 0;      ///< The system's error number if it could not be started.
-  Descriptor output;   ///< What it prints on standard output and error comes out here.
+  Descriptor output;   ///< Its standard output and error.
   std::string mark;    ///< Of its family, see `ProcessFamily`.
 };
 
 /// Starts a child process as `run_child` says.
-/// @param oom_score_adj of the child and, since it is inherited, of all that it starts
+/// @param oom_score_adj of the child and, since it is inherited, of all processes that it starts
 StartedChild start_child(const ChildSetup& setup, int oom_score_adj);
 
 }  // namespace raymoval

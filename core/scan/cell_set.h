@@ -8,7 +8,7 @@
 
 namespace raymoval {
 
-// Cells of a lattice stand together in bricks of 4 x 4 x 4, one bit each.
+// Cells of a lattice are stored in bricks of 4 x 4 x 4, one bit each.
 
 /// The brick of a cell: the key of its lowest cell, every index divided by four.
 constexpr VoxelKey brick_of(VoxelKey cell) {

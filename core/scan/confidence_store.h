@@ -15,14 +15,14 @@ inline constexpr int kConfidenceSteps = 250;
 inline std::uint8_t confidence_steps(float confidence) {
   return static_cast<std::uint8_t>(std::lround(confidence * static_cast<float>(kConfidenceSteps)));
 }
-/// The confidence that so many steps are.
+/// The confidence of a number of steps.
 inline float confidence_of_steps(std::uint8_t steps) {
   return static_cast<float>(steps) / static_cast<float>(kConfidenceSteps);
 }
 
 /// How sure a method is that each point moves: steps by scan, a byte for each point.
 struct ConfidenceStore {
-  ScanSpool steps;  ///< Of no scan if no method was asked, or it has no confidence.
+  ScanSpool steps;  ///< Of no scan if confidence was not requested or the method has none.
 
   [[nodiscard]] bool empty() const { return steps.size() == 0; }
 };

@@ -10,7 +10,7 @@ namespace raymoval {
 /// How the directions of a sensor lie to each other.
 struct DirectionPattern {
   enum class Kind {
-    kUnknown,    ///< Too few directions to tell.
+    kUnknown,    ///< Too few directions.
     kColumns,    ///< Beams of even steps in azimuth; columns of different beams may be shifted.
     kBeams,      ///< Beams, but no even steps, such as several revolutions that do not line up.
     kScattered,  ///< Neither, such as rosettes and scans that were thinned out.

@@ -13,7 +13,7 @@ namespace raymoval {
 /// What a label word means for an evaluation.
 enum class LabelClass : std::uint8_t { kStatic = 0, kMoving = 1, kIgnored = 2 };
 
-/// What semantic ids are called, such as 252: "moving-car".
+/// Names of semantic ids, such as 252: "moving-car".
 using ClassNames = std::map<std::uint16_t, std::string>;
 /// The names of SemanticKITTI's ids.
 const ClassNames& semantickitti_class_names();
@@ -30,8 +30,8 @@ struct LabelRule {
   [[nodiscard]] LabelClass classify(std::uint32_t word) const;
 };
 
-/// The name of a rule that needs no file: what moves at the time of the scan moves, and what stands
-/// then does not, though it moves at another time. Only some data says that.
+/// The name of a rule that needs no file: an object moves only in the scans in which it is in
+/// motion. Only some data has this information.
 inline constexpr const char* kMovingNow = "moving-now";
 /// Whether a rule so named is in a file.
 inline bool is_rule_file(const std::string& rule) {
@@ -39,7 +39,7 @@ inline bool is_rule_file(const std::string& rule) {
 }
 
 /// Reads {"moving": [ids], "ignored": [ids], "name": text}; missing keys keep `base`'s values.
-/// @throws ConfigurationError if an id is no whole number from 0 to 65535 or stands in both lists.
+/// @throws ConfigurationError if an id is no whole number from 0 to 65535 or is in both lists.
 LabelRule label_rule_from_json(const nlohmann::json& json, const LabelRule& base,
                                const std::string& where);
 nlohmann::ordered_json to_json(const LabelRule& rule);

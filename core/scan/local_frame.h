@@ -6,8 +6,8 @@
 namespace raymoval {
 
 /// The scans of another source with their poses in another world frame. Points stay in the sensor
-/// frame, so masks by index mean the same in both. All that works with metres of the world (maps,
-/// lattices, single precision) gets its scans through this, so that it loses nothing where the
+/// frame, so masks by index mean the same in both. Code that uses metres of the world (maps,
+/// lattices, single precision) reads scans through this source, so that it loses no digits if the
 /// world's origin is far away, as in UTM coordinates.
 class LocalFrameSource : public ScanSource {
  public:

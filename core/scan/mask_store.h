@@ -10,9 +10,9 @@
 
 namespace raymoval {
 
-/// Removal masks of a sequence, at most one bit and a thirty-second per point. 64 points that
-/// follow each other and are all kept, or all removed, take a thirty-second of that: masks of
-/// methods take much less than a bit per point, those that keep or remove everything next to none.
+/// Removal masks of a sequence, at most one bit and a thirty-second per point. 64 consecutive
+/// points that are all kept, or all removed, take a thirty-second of that. So masks of methods take
+/// much less than a bit per point, and masks that keep or remove everything almost nothing.
 class MaskStore {
  public:
   /// Keeps the masks in memory.
@@ -30,7 +30,7 @@ class MaskStore {
   /// Of all scans.
   [[nodiscard]] std::size_t point_count() const;
   [[nodiscard]] std::size_t removed_count() const;
-  /// What the masks take in memory.
+  /// Bytes of memory of the masks.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -38,9 +38,9 @@ class MaskStore {
     std::size_t points = 0, removed = 0;
   };
   std::vector<Counts> counts_;
-  /// Points stand in words of 64. Words in which all bits are the same are not kept. For each 64
-  /// words of a mask there are two: which of them are kept, and which of the others have all bits
-  /// set. Then the words that are kept, in order.
+  /// A word has the bits of 64 points. Words in which all bits are equal are not stored. For each
+  /// 64 words of a mask there are two index words: which words are stored, and which of the others
+  /// have all bits set. The stored words follow in order.
   ScanSpool spool_;
 };
 

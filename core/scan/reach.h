@@ -5,8 +5,8 @@
 
 namespace raymoval {
 
-// How far away things may lie. What lies beyond makes methods and protocols fail; inspection reads
-// the same numbers, so that it finds what would.
+// Largest distances. Methods and protocols fail on points or positions beyond them. Inspection
+// reads the same numbers, so that it finds such data.
 
 /// How far from the origin of a lattice (see `method_frame` and `lattice_origin`) its voxels reach
 /// along an axis, metres.
@@ -18,8 +18,8 @@ constexpr double lattice_reach(double voxel_size) {
 /// of the frame that methods run in, metres. The smallest of their voxels are of 0.05 m.
 inline constexpr double kUsualReach = lattice_reach(0.05);
 
-/// How far from its sensor a point may lie, metres. No LiDAR on the ground sees so far, and every
-/// method takes it with its defaults.
+/// Largest distance of a point from its sensor, metres. No LiDAR on the ground reaches it, and
+/// every method accepts it with its defaults.
 inline constexpr double kFarthestReturn = 10000.0;
 
 /// How large the steps between neighbouring positions of a sensor may be, metres. Far from the

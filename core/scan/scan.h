@@ -15,8 +15,8 @@ using Pose = Eigen::Isometry3d;
 /// One mask value per point of a scan: 1 = removed, 0 = kept.
 using Mask = std::vector<std::uint8_t>;
 
-/// One sweep of the sensor. Every coordinate is finite, and no point stands for a missing return;
-/// what a file stored beyond that is only counted (`stored_point_count`).
+/// One sweep of the sensor. Every coordinate is finite, and missing returns are left out; they are
+/// only counted (`stored_point_count`).
 struct Scan {
   std::size_t index = 0;  ///< Position in its source, 0 .. size() - 1.
   std::string name;       ///< Name of the frame in its data set, such as "000123".

@@ -13,7 +13,7 @@ namespace raymoval {
 struct SensorModel {
   std::string name = "unknown";
   double azimuth_min = -3.14159265358979323846;
-  /// Above pi where the view goes through the back of the sensor frame; never more than one turn
+  /// Above pi if the view includes the back of the sensor frame; never more than one turn
   /// above `azimuth_min`.
   double azimuth_max = 3.14159265358979323846;
   double elevation_min = -1.57079632679489661923;
@@ -24,10 +24,10 @@ struct SensorModel {
   double elevation_step = 0.0;
   double range_min = 0.0;    ///< Nearest range the sensor reports.
   double range_max = 120.0;  ///< Farthest range the sensor reports.
-  /// True where a direction without return means that nothing stood within range (as opposed to a
-  /// lost or filtered return).
+  /// True if a direction without a return is free up to the maximum range (and the return was not
+  /// lost or filtered).
   bool missing_return_is_meaningful = false;
-  /// What an estimate rests on: "64 beams, 0.173 deg by 0.427 deg, view of 360 deg by 27 deg, from
+  /// The basis of an estimate: "64 beams, 0.173 deg by 0.427 deg, view of 360 deg by 27 deg, from
   /// 5 scans with 601,234 directions". Empty for a sensor of known values.
   std::string basis = "";
   int beams = 0;  ///< As an estimate found them; 0 where there are none or they are unknown.
@@ -47,12 +47,11 @@ std::vector<std::string> sensor_model_names();
 SensorModel sensor_model_named(const std::string& name);
 
 /// Field of view, steps and ranges as seen in `scans` (at least one with points), for any order of
-/// points. The field of view goes from the outermost directions to those opposite; 0.01 % of the
-/// points on either side are not counted. It may go across +-pi. How steps are found is said at
-/// `find_direction_pattern`; they stay 0 (unknown) where there are too few directions. Steps and
-/// elevations that are nearly those of a known sensor become its own, so that naming that sensor
-/// changes nothing.
-/// @throws DataError if there is no point to look at.
+/// points. The field of view lies between the outermost directions on both sides, without 0.01 % of
+/// the points on either side. It may include +-pi. `find_direction_pattern` finds the steps; they
+/// stay 0 (unknown) if there are too few directions. Steps and elevations that are nearly those of
+/// a known sensor become its own, so that naming that sensor changes nothing.
+/// @throws DataError if there is no point.
 SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
 
 }  // namespace raymoval

@@ -11,17 +11,17 @@
 
 namespace raymoval {
 
-/// Numbers voxels 0, 1, 2, ... in the order in which they come, and finds their numbers again. The
-/// keys stand elsewhere, by number, so that the table takes 5 to 8 bytes a voxel.
+/// Numbers voxels 0, 1, 2, ... in the order of insertion, and finds their numbers again. The caller
+/// stores the keys by number, so that the table takes 5 to 8 bytes per voxel.
 ///
-/// `key_of(number)` says the key of a number that was given.
+/// `key_of(number)` returns the key of an assigned number.
 class VoxelNumbers {
  public:
   using Number = std::uint32_t;
   static constexpr Number kNone = std::numeric_limits<Number>::max();
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// What the table takes in memory.
+  /// Bytes of memory of the table.
   [[nodiscard]] std::size_t bytes() const { return table_.capacity() * sizeof(Number); }
   /// Forgets all voxels and keeps the room.
   void clear() {
@@ -47,8 +47,8 @@ class VoxelNumbers {
     return found;
   }
 
-  /// Makes room for so many voxels at once: for each of them two places, so that it is quick to say
-  /// that a voxel is not there.
+  /// Reserves memory for a number of voxels: two places for each, so that missing voxels are found
+  /// quickly.
   template <class KeyOf>
   void reserve(std::size_t voxels, KeyOf&& key_of) {
     if (2 * voxels > table_.size()) grow(2 * voxels, key_of);
@@ -57,7 +57,7 @@ class VoxelNumbers {
  private:
   static constexpr std::size_t kFewestPlaces = 1024;
 
-  /// Where a voxel stands in the table, or where it would.
+  /// The place of a voxel in the table, or the place where it would be inserted.
   template <class KeyOf>
   [[nodiscard]] std::size_t place_of(VoxelKey key, KeyOf&& key_of) const {
     std::size_t at = first_place(key);
@@ -73,7 +73,7 @@ class VoxelNumbers {
 
   template <class KeyOf>
   void grow(std::size_t places, KeyOf&& key_of) {
-    table_ = {};  // Gives its memory back before it asks for more.
+    table_ = {};  // Frees memory before more is allocated.
     table_.assign(std::max(places, kFewestPlaces), kNone);
     for (Number number = 0; number < size_; ++number) {
       std::size_t at = first_place(key_of(number));

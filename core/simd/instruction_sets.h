@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For the sources of kernels, after HWY_EXPORT: how the rest of a program gets at what was compiled
-// once for each instruction set.
+// For the sources of kernels, after HWY_EXPORT: how the rest of a program calls functions that are
+// compiled once for each instruction set.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace raymoval {
 
-/// Highway's bits for the vectors that kernels may use on this processor. 0 stands for none, the
-/// plain version.
+/// Highway's bits for the vectors that kernels may use on this processor. 0 means none: the plain
+/// version.
 std::int64_t highway_targets();
 
 }  // namespace raymoval

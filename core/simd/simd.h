@@ -36,7 +36,7 @@ class AlignedArray {
   static_assert(std::is_trivially_copyable_v<Value>);
 
  public:
-  /// Makes room for at least `size` values and keeps those that are there.
+  /// Reserves memory for at least `size` values and keeps the present values.
   void require(std::size_t size) {
     if (size <= size_) return;
     const std::size_t wanted = size + size / 2;

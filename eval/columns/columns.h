@@ -34,7 +34,8 @@ struct ColumnName {
 
 ColumnName parse_column_name(const std::string& name);
 
-/// A share of points that says what a method removed. Columns stand beside the protocols' rates.
+/// A share of points that were removed or kept. Tables show columns beside the rates of the
+/// protocols.
 struct Column {
   std::string name;
   std::string description;
@@ -49,7 +50,7 @@ inline constexpr const char* kColumnsVersion = "1";
 /// The columns of any sequence, in order:
 /// - `precision` and `recall` of the set of removed points (moving points are the positive ones),
 /// and
-///   `residue`, the share of moving points among those that are kept;
+///   `residue`, the share of moving points among the kept points;
 /// - `rejection`, the share of moving points that are removed (this is the recall), and
 ///   `preservation`, the share of static points that are kept: in total, by range band and by
 ///   height band, "rejection [range 0-10 m]".

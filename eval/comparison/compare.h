@@ -16,7 +16,7 @@ namespace raymoval {
 /// What must be equal for two results to be comparable, by name: {"parameter tau0", "0.3"}.
 using Facts = std::map<std::string, std::string>;
 
-/// What one protocol said of one cell.
+/// The score of one cell by one protocol.
 struct ComparedScore {
   std::string protocol;  ///< Its name in the suite.
   Facts identity;        ///< Protocol, version and options.
@@ -35,14 +35,14 @@ struct ComparedCell {
   std::string method_version;
   std::vector<ComparedScore> scores;
   std::optional<double> seconds_per_scan;
-  int side_by_side = 1;  ///< So many cells ran at once when it was timed.
+  int side_by_side = 1;  ///< Number of cells that ran at once when it was timed.
 };
 
 /// All cells of a run, or of a reference.
 struct ResultSet {
   std::vector<ComparedCell> cells;
   std::vector<std::string> control_problems;
-  std::string machine = {};  ///< What times were measured on; empty if that is not known.
+  std::string machine = {};  ///< The machine on which times were measured; empty if unknown.
 };
 
 struct ComparisonOptions {
@@ -61,16 +61,16 @@ struct ComparisonOptions {
   bool across_version = false;
 };
 
-/// What became of something, from good to bad.
+/// The result of a comparison, from good to bad.
 enum class Change { kSame, kBetter, kMoved, kWorse, kIncomparable };
 
 /// "same", "better", "moved", "worse", "not comparable".
 const char* change_name(Change change);
 
-/// A rate of the reference, and what it is in the run.
+/// A rate of the reference, and the same rate of the run.
 struct RateChange {
   std::string name;
-  std::optional<double> before, after;  ///< Nothing where it is undefined.
+  std::optional<double> before, after;  ///< Nothing if it is undefined.
   std::optional<double> tolerance;      ///< How much worse it may get; nothing: it decides nothing.
   /// kMoved if it decides nothing, or if it is not known which direction is better.
   Change change = Change::kSame;
@@ -88,7 +88,7 @@ struct ScoreComparison {
   std::string name;
   std::string protocol;  ///< Empty if neither side has a score of this cell.
   Change change = Change::kSame;
-  std::vector<std::string> reasons;  ///< Why, besides rates and counts: "missing in the run".
+  std::vector<std::string> reasons;  ///< Reasons other than rates and counts: "missing in the run".
   std::vector<std::string> across;   ///< Parameters or version that differ and were to differ.
   std::vector<RateChange> rates;     ///< All of the reference, if both sides have a score.
   std::vector<CountChange> counts;
@@ -118,7 +118,7 @@ struct ComparisonLine {
   std::string text;
 };
 
-/// All that is not the same, in two forms: as sentences, and in parts for other formats.
+/// All differences, in two forms: as sentences, and in parts for other formats.
 struct Comparison {
   std::vector<std::string> incomparable;
   std::vector<std::string> worse;
@@ -128,10 +128,10 @@ struct Comparison {
   std::size_t cells = 0;       ///< Cells of the reference.
   std::size_t same_cells = 0;  ///< Of these, cells with equal counts and rates.
 
-  std::vector<ComparisonLine> lines;  ///< The sentences but for times, with their cells.
+  std::vector<ComparisonLine> lines;  ///< The sentences except those on times, with their cells.
   std::vector<ScoreComparison> scores;
   std::vector<TimeChange> time_changes;
-  /// Whether all that is not comparable would be with `across_parameters`.
+  /// Whether all cells would be comparable with `across_parameters`.
   bool parameters_only = false;
 
   /// kCannotDo if anything is not comparable, else kWorse if anything is worse, else kDone.
@@ -142,8 +142,8 @@ struct Comparison {
 
 /// Compares `run` with `reference` cell by cell. Changed counts are better only if a rate improved,
 /// none got worse, and every count that masks cannot change is the same; else they are worse. Cells
-/// that only the run has are shown and decide nothing, and so do rates of which it is not known
-/// which direction is better.
+/// that only the run has are shown and do not change the verdict, nor do rates without a known
+/// better direction.
 /// @throws UsageError if a tolerance names a rate that the reference does not have, or one whose
 /// better direction is not known; if there is a time band and the reference has no times
 Comparison compare_results(const ResultSet& run, const ResultSet& reference,

@@ -13,7 +13,7 @@
 
 namespace raymoval {
 
-/// So many bins of equal width, from 0 to 1. The last one has 1, too.
+/// Number of bins of equal width, from 0 to 1. The last bin includes 1.
 inline constexpr std::size_t kConfidenceBins = 10;
 
 /// The bin of a confidence in steps, see `kConfidenceSteps`.
@@ -28,28 +28,29 @@ struct ReliabilityBin {
   std::int64_t steps = 0;   ///< Sum of their confidence in steps, see `kConfidenceSteps`.
 
   ReliabilityBin& operator+=(const ReliabilityBin& other);
-  /// What was said of them, and what came true; no value without points.
+  /// Their mean confidence, and the share that moves; no value without points.
   [[nodiscard]] std::optional<double> mean_confidence() const;
   [[nodiscard]] std::optional<double> moving_share() const;
 };
 
-/// Whether what a method says of points comes true: of those said 0.9, nine of ten should move.
+/// Compares confidence with labels: of the points with confidence 0.9, nine of ten should move.
 struct Reliability {
   std::array<ReliabilityBin, kConfidenceBins> bins;
 
   Reliability& operator+=(const Reliability& other);
-  /// Mean distance between what was said and what came true, over bins weighted by their points
+  /// Mean distance between mean confidence and moving share, over bins weighted by their points
   /// (Naeini et al., Obtaining Well Calibrated Probabilities Using Bayesian Binning, AAAI 2015,
-  /// "ECE"); no value without points. Nearly all points stay, and are said to: see `mean_gap`.
+  /// "ECE"); no value without points. Nearly all points are static with a low confidence, see
+  /// `mean_gap`.
   [[nodiscard]] std::optional<double> expected_error() const;
-  /// The same over bins that count alike, of those with `kFewestInBin` points or more.
+  /// The same with equal weight for each bin that has at least `kFewestInBin` points.
   [[nodiscard]] std::optional<double> mean_gap() const;
 };
 
 inline constexpr std::int64_t kFewestInBin = 100;
 
-/// Counts the points whose labels say whether they move (within the sequence's range, not ignored)
-/// by confidence, in one pass. No protocol has a say.
+/// Counts the static and moving points (within the sequence's range, not ignored) by confidence, in
+/// one pass, for all protocols alike.
 class ReliabilityCount : public ScanVisitor {
  public:
   /// @param input,confidence must outlive this object. @throws DataError if there are no labels

@@ -20,8 +20,8 @@ struct FineCell {
 };
 
 /// Cuts the world into blocks of fine cells, an eighth of a block's edge each. An edge of a fine
-/// cell is a little more than half of `distance`, so that points at most so far apart are at most
-/// two fine cells from each other along each axis, whatever rounding does.
+/// cell is a little more than half of `distance`, so that points within `distance` of each other
+/// are at most two fine cells apart along each axis, also after rounding.
 class FineGrid {
  public:
   explicit FineGrid(double distance);
@@ -66,7 +66,7 @@ class FineBits {
   void set(Number block, const FineCell& cell) {
     const std::atomic_ref<std::uint64_t> word(words_[index(block, cell.z)]);
     const std::uint64_t bit = bit_of(cell);
-    // Most bits are set already, and looking is quicker than setting.
+    // Most bits are set already, and reading is faster than writing.
     if ((word.load(std::memory_order_relaxed) & bit) == 0) {
       word.fetch_or(bit, std::memory_order_relaxed);
     }
@@ -75,7 +75,7 @@ class FineBits {
   [[nodiscard]] bool is_set(Number block, const FineCell& cell) const {
     return is_chosen(block) && (words_[index(block, cell.z)] & bit_of(cell)) != 0;
   }
-  /// Takes away the bits that `other` has.
+  /// Clears the bits that are set in `other`.
   void subtract(const FineBits& other);
   /// Whether any bit of the block is set.
   [[nodiscard]] bool any(Number block) const;
@@ -85,14 +85,14 @@ class FineBits {
   [[nodiscard]] bool any_near(const FineCell& cell, const CellLattice& lattice,
                               CellLattice::Cursor& cursor, Number first, Number end) const;
 
-  /// What it takes in memory.
+  /// Bytes of memory.
   [[nodiscard]] std::size_t bytes() const {
     return chosen_.bytes() + words_.capacity() * sizeof(std::uint64_t);
   }
   static constexpr std::size_t kBytesPerBlock = 64;
 
  private:
-  /// Where a layer of a chosen block stands.
+  /// Index of a layer of a chosen block.
   [[nodiscard]] std::size_t index(Number block, int z) const {
     return std::size_t{chosen_.rank(block)} * 8 + static_cast<std::size_t>(z);
   }

@@ -47,7 +47,7 @@ class MarkedCells {
 
   [[nodiscard]] const FineBits& kept() const { return kept_; }
   [[nodiscard]] const FineBits& flagged() const { return flagged_; }
-  /// What it takes in memory.
+  /// Bytes of memory.
   [[nodiscard]] std::size_t bytes() const;
 
  private:

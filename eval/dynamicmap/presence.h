@@ -12,7 +12,7 @@
 
 namespace raymoval::dynamicmap {
 
-/// What became of the points of a scan.
+/// Counts of the points of a scan.
 struct ScanPresence {
   PointCounts points;
   std::int64_t kept_static = 0;      ///< Static and not flagged.
@@ -23,9 +23,9 @@ struct ScanPresence {
   ScanPresence& operator+=(const ScanPresence& other);
 };
 
-/// What does not depend on masks.
+/// The part that does not depend on masks.
 struct TruthBlocks {
-  CellLattice blocks;               ///< Those with points that are in range.
+  CellLattice blocks;               ///< Blocks with points in range.
   std::vector<PointCounts> points;  ///< Of each scan.
 };
 
@@ -37,13 +37,13 @@ TruthBlocks truth_blocks(const TruthPoints& truth, const FineGrid& grid);
 ///
 /// A kept point is its own partner, so partners are searched for flagged points only. The first
 /// pass finds the blocks that have any. The second one marks the fine cells of flagged points, and
-/// of kept ones in these blocks and those beside them. That decides on most flagged points: one
-/// that shares its cell with a kept point is present, one without a kept point two cells around is
-/// gone. The third pass counts these and collects the others, with the kept points around them, and
-/// these are searched. Where marks or points are too many for the room that the number of blocks
-/// gives them, only those of the first blocks stay, and further passes take those of the next ones.
-/// So memory is bounded by the map: at most 16 bytes a block for the marks and 12 for the points,
-/// but room for each of them is never less than 128 MiB.
+/// of kept ones in these blocks and those beside them. This decides most flagged points: a point
+/// that shares its cell with a kept point is present, a point without a kept point two cells around
+/// is gone. The third pass counts these and collects the others, with the kept points around them,
+/// and these are searched. If there are too many marks or points for the memory, which depends on
+/// the number of blocks, a pass handles only the first blocks, and further passes handle the next
+/// ones. So memory is bounded by the map: at most 16 bytes per block for the marks and 12 for the
+/// points, but at least 128 MiB for each of them.
 class PresenceCount : public ScanVisitor {
  public:
   struct Input {
@@ -53,7 +53,7 @@ class PresenceCount : public ScanVisitor {
     const TruthBlocks& blocks;  ///< Of the truth.
   };
 
-  /// Bytes for what passes collect; 0: as many as the number of blocks allows.
+  /// Bytes for collected marks and points; 0: derived from the number of blocks.
   struct Room {
     std::size_t marks = 0;
     std::size_t points = 0;  ///< That are searched.
@@ -66,7 +66,7 @@ class PresenceCount : public ScanVisitor {
   static std::unique_ptr<PresenceCount> start(const Input& input, const Room& room);
   /// Called once, after the last pass.
   [[nodiscard]] virtual std::vector<ScanPresence> finish() = 0;
-  /// What it holds in memory now, without the truth.
+  /// Present bytes of memory, without the truth.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 

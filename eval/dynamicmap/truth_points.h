@@ -10,7 +10,7 @@
 
 namespace raymoval::dynamicmap {
 
-/// The points of a scan by what they are. Static, dynamic, out-of-range and ignored points add up
+/// The points of a scan by kind. Static, dynamic, out-of-range and ignored points add up
 /// to the points that were read.
 struct PointCounts {
   std::int64_t static_points = 0;
@@ -25,14 +25,14 @@ struct PointCounts {
 /// @throws DataError unless a static or a dynamic point is left to score against
 void check_not_empty(const PointCounts& points);
 
-/// What a point is to the protocol. An ignored point has no class, but it may stand in a map.
+/// The kind of a point in the protocol. An ignored point has no class, but it may be part of a map.
 enum class Kind { kOutOfRange, kIgnored, kStatic, kDynamic };
 
 inline bool is_truth(Kind kind) {
   return kind == Kind::kStatic || kind == Kind::kDynamic;
 }
 
-/// Says which points belong to the benchmark's ground truth, and which of them move.
+/// Decides which points belong to the benchmark's ground truth, and which of them move.
 class TruthPoints {
  public:
   TruthPoints(const EvaluationInput& input, double maximum_range, double ego_range);
@@ -59,7 +59,7 @@ class TruthPoints {
     }
   }
 
-  /// What a point is. @param point sensor frame
+  /// The kind of a point. @param point sensor frame
   [[nodiscard]] Kind kind_of(const Eigen::Vector3f& point, std::uint32_t word) const {
     PointCounts counts;
     return kind_of(point, word, counts);

@@ -16,8 +16,8 @@ namespace raymoval::dynamicmap {
 
 /// Flagged points that have a kept point near but not in their fine cell, and the kept points
 /// around them, for a range of blocks at a time. The range begins with all blocks that are given.
-/// Where the points get too many, its end moves down and the points beyond it are forgotten; they
-/// have their turn in a later pass.
+/// If there are too many points, its end moves down and the points beyond it are dropped. A later
+/// pass handles them.
 class UndecidedPoints {
  public:
   using Number = CellLattice::Number;
@@ -34,7 +34,7 @@ class UndecidedPoints {
     std::uint32_t scan;
     bool moving;
   };
-  /// What one scan adds.
+  /// The points of one scan.
   struct Found {
     std::vector<Flagged> flagged;
     std::vector<Eigen::Vector3d> kept;
@@ -49,8 +49,8 @@ class UndecidedPoints {
   /// Begins with those of them that are behind the last range. @return false if there is none
   bool begin_next();
 
-  /// Whether the flagged points of a block are collected in this pass. It may say so of a block
-  /// whose turn ends meanwhile; `add` knows.
+  /// Whether the flagged points of a block are collected in this pass. It may be true for a block
+  /// that is dropped meanwhile; `add` checks again.
   [[nodiscard]] bool has_turn(Number block) const { return block >= first_ && block < end_; }
   /// Whether undecided flagged points may be near a block.
   [[nodiscard]] bool is_near_flagged(Number block) const { return is_near_flagged_.test(block); }
@@ -64,7 +64,7 @@ class UndecidedPoints {
   /// and forgets all points.
   void search(int threads, const std::function<void(const Flagged&)>& present);
 
-  /// What the points take in memory, with what their search will need.
+  /// Bytes of memory of the points and of their search.
   [[nodiscard]] std::size_t bytes() const;
 
  private:

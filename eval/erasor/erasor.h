@@ -21,16 +21,16 @@ namespace raymoval {
 ///
 /// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; estimate_voxels;
 /// estimate_voxels_without_partner (no truth voxel within the same reach; never penalised);
-/// mixed_label_ties and estimate_mixed_label_ties (voxels whose class hung on input order);
+/// mixed_label_ties and estimate_mixed_label_ties (voxels whose class depended on input order);
 /// unlabelled_voxels (truth voxels labelled 0 or 1); evaluated_points and removed_points
 /// (those of them that were flagged); out_of_range_points, ignored_points, cropped_points. If
 /// moving trucks (id 258) occur and move, the first four and the rates come again as `..._no_truck`
 /// with trucks counted as static, as in the scripts behind early published tables.
 ///
-/// A cleaned cloud (with `label_mode` nearest, and `lift` 0 unless the cloud was lifted likewise)
+/// A cleaned cloud (with `label_mode` nearest, and `lift` 0 unless the cloud was lifted, too)
 /// is voxelised once; each voxel takes the label of the nearest point of the dense map, however far
 /// away. Static voxels beside removed objects so become dynamic and RR has a ceiling below 100:
-/// score the cloud of an oracle to see it. `cloud_points` then stands for `removed_points`.
+/// the score of the oracle's cloud shows it. `cloud_points` then replaces `removed_points`.
 ProtocolEntry erasor_protocol_entry();
 
 }  // namespace raymoval

@@ -22,11 +22,11 @@ double matching_bound(double voxel_size);
 CellLattice::Number find_partner(VoxelKey cell, const Eigen::Vector3d& mean, const MapVoxels& map,
                                  double voxel_size, CellLattice::Cursor& cursor);
 
-/// For each cell of the truth what the partner of its voxel is, by the options' matching.
+/// For each cell of the truth the kind of its voxel's partner, by the options' matching.
 std::vector<VoxelKind> partner_kinds(const MapVoxels& truth, const MapVoxels& estimate,
                                      const Options& options, int threads);
 
-/// How the estimate lies in the truth, looked at the other way round.
+/// The overlap in the other direction: partners of the estimate's voxels in the truth.
 struct Overlap {
   std::int64_t voxels = 0;           ///< Of the estimate.
   std::int64_t without_partner = 0;  ///< In the truth, by radius.

@@ -41,7 +41,7 @@ constexpr int bits_set(std::uint64_t word) {
   return static_cast<int>(word * 0x0101010101010101U >> 56);
 }
 
-/// The cell so many steps away. Beyond the lattice's end this is a cell far away.
+/// The cell at an offset in steps. Beyond the lattice's end this is a cell far away.
 constexpr VoxelKey cell_beside(VoxelKey cell, int dx, int dy, int dz) {
   const auto step = [](int count, int axis) {
     return static_cast<VoxelKey>(static_cast<std::int64_t>(count)) << (axis * kVoxelBits);
@@ -75,9 +75,9 @@ class CellInserter {
   std::uint64_t cells_ = 0;
 };
 
-/// A set of cells that are numbered, from 0. What is close in space has numbers that are close, so
-/// that a table by number is good to the processor's caches. It takes 32 bytes a brick, which
-/// is about five a cell of a usual map.
+/// A set of cells that are numbered from 0. Cells that are close in space have close numbers, so a
+/// table by number uses the processor's caches well. It takes 32 bytes per brick, which is about
+/// five per cell of a usual map.
 class CellLattice {
  public:
   using Number = std::uint32_t;
@@ -119,12 +119,12 @@ class CellLattice {
     for_each_in(0, bricks(), visit);
   }
 
-  /// What it takes in memory.
+  /// Bytes of memory.
   [[nodiscard]] std::size_t bytes() const {
     return bricks_.capacity() * sizeof(Brick) + positions_.bytes();
   }
 
-  /// How many bricks the cells stand in, for loops that cut the work by bricks.
+  /// Number of bricks, for loops that divide the work by bricks.
   [[nodiscard]] std::size_t bricks() const { return bricks_.size(); }
   /// The same as `for_each` for the bricks [begin, end).
   template <class Visit>
@@ -151,7 +151,7 @@ class CellLattice {
 
   std::size_t size_ = 0;
   std::vector<Brick> bricks_;  ///< Along a Morton curve.
-  VoxelNumbers positions_;     ///< Where a brick stands in `bricks_`.
+  VoxelNumbers positions_;     ///< Index of a brick in `bricks_`.
 };
 
 }  // namespace raymoval

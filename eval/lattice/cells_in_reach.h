@@ -23,7 +23,7 @@ class LayerGaps {
       squared_(axis, 2) = above * above;
     }
   }
-  /// Squared distance to the cell so many steps away, -1 to 1 each.
+  /// Squared distance to the cell at an offset of -1 to 1 steps along each axis.
   [[nodiscard]] double to(int dx, int dy, int dz) const {
     return squared_(0, dx + 1) + squared_(1, dy + 1) + squared_(2, dz + 1);
   }

@@ -12,9 +12,9 @@
 
 namespace raymoval {
 
-/// The places where some cells of a lattice are, in a dense grid of coarse cells around them. It
-/// tells of most points that they are in none of these cells without a search, and never says so of
-/// one that is in any. It takes at most 2 MiB: the farther the cells are apart, the coarser it is.
+/// The places where some cells of a lattice are, in a dense grid of coarse cells around them. For
+/// most points it shows without a search that they are in none of these cells, and it is never
+/// wrong about this. It takes at most 2 MiB: the farther the cells are apart, the coarser it is.
 class CoarseCells {
  public:
   CoarseCells() = default;

@@ -11,14 +11,14 @@
 
 namespace raymoval {
 
-/// The votes of many voxels at a time, for points that come in the order of their index and are not
-/// kept: what `LabelVote` decides, at 16 bytes a voxel.
+/// The votes of many voxels at a time, for points in the order of their index, which are not
+/// stored. The result equals that of `LabelVote`, at 16 bytes per voxel.
 ///
-/// Of points in order, only one that is nearer than all before it can ever give its label: with any
-/// other one an earlier point is in reach, too. So a voxel remembers the earliest of these that is
-/// still in reach of the nearest. Those that came after it, and are in reach likewise, are nearer
-/// by less than `kLabelTieMargin`; the few voxels that have any remember them apart. So do those
-/// that have a point of the other class in reach of the nearest.
+/// Only a point that is nearer than all earlier points can give its label, because otherwise an
+/// earlier point is in reach, too. So a voxel stores the earliest of these points that is still in
+/// reach of the nearest. Later points in reach are nearer by less than `kLabelTieMargin`. Few
+/// voxels have such points, or a point of the other class in reach of the nearest; these are stored
+/// apart.
 class LabelVotes {
  public:
   struct Label {
@@ -35,9 +35,9 @@ class LabelVotes {
   [[nodiscard]] Label label(std::size_t voxel) const {
     return {holders_[voxel].id, holders_[voxel].scan};
   }
-  /// What they take in memory, but for the few voxels that remember more than one point.
+  /// Bytes of memory, without the few voxels that store more than one point.
   [[nodiscard]] std::size_t bytes() const { return holders_.capacity() * sizeof(Candidate); }
-  /// Whether a moving and a static point stand at the same distance.
+  /// Whether a moving and a static point have the same distance.
   [[nodiscard]] bool is_mixed_tie(std::size_t voxel) const;
 
  private:
@@ -57,8 +57,8 @@ class LabelVotes {
   std::vector<Candidate> holders_;
   /// Candidates behind the holder, in order: each is nearer than the one before it.
   std::unordered_map<std::size_t, std::vector<Candidate>> behind_;
-  /// Distance of the nearest point of the class that the nearest point of all is not of, where it
-  /// was in reach of this one.
+  /// Distance of the nearest point of the other class than the nearest point, if it was in reach of
+  /// the nearest point.
   std::unordered_map<std::size_t, double> other_class_;
 };
 

@@ -10,9 +10,9 @@
 
 namespace raymoval {
 
-/// The means of many cells, by number, added up point by point: what `OffsetMean` makes of the same
-/// points in the same order, bit by bit. It takes 52 bytes a cell while points come, and 24
-/// afterwards: means are written over the sums.
+/// The means of many cells, by number, added up point by point, bit for bit equal to `OffsetMean`
+/// of the same points in the same order. It takes 52 bytes per cell while points are added, and 24
+/// afterwards, because means are written over the sums.
 class MeanTable {
  public:
   MeanTable() = default;
@@ -34,7 +34,7 @@ class MeanTable {
   /// Ends adding, once. @return how many cells have a point
   std::size_t finish();
 
-  /// What it takes in memory.
+  /// Bytes of memory.
   [[nodiscard]] std::size_t bytes() const {
     return doubles_ * sizeof(double) + points_.capacity() * sizeof(std::uint32_t);
   }

@@ -11,8 +11,8 @@
 
 namespace raymoval {
 
-/// A bit for each of many numbers. The numbers whose bits are set can be counted through, so that a
-/// table needs room for these alone. It takes a fifth of a byte a number.
+/// A bit for each of many numbers. The set bits are ranked, so that a table needs memory for these
+/// numbers only. It takes a fifth of a byte per number.
 class RankedBits {
  public:
   RankedBits() = default;
@@ -29,7 +29,7 @@ class RankedBits {
     return (words_[number / 64] & bit(number)) != 0;
   }
 
-  /// Counts the bits through. `count` and `rank` hold until the next bit is set.
+  /// Ranks the set bits. `count` and `rank` hold until the next bit is set.
   void count_through() {
     ranks_.clear();
     ranks_.reserve(words_.size());
@@ -57,7 +57,7 @@ class RankedBits {
     }
   }
 
-  /// What it takes in memory.
+  /// Bytes of memory.
   [[nodiscard]] std::size_t bytes() const {
     return words_.capacity() * sizeof(std::uint64_t) + ranks_.capacity() * sizeof(std::uint32_t);
   }

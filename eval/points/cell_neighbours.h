@@ -47,7 +47,7 @@ class CellNeighbours {
   struct Row {
     int dy, dz;
   };
-  /// The own row first, so that the reach shrinks early.
+  /// The query's row is first, so that the reach shrinks early.
   static constexpr std::array<Row, 9> kRows = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
 

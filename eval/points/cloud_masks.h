@@ -10,12 +10,12 @@
 
 namespace raymoval {
 
-/// A point of a scan is found again in a cleaned cloud if a point of the cloud is at most so many
-/// metres away. The KTH DynamicMap benchmark uses this distance.
+/// Largest distance, in metres, at which a point of a scan counts as found in a cleaned cloud. The
+/// KTH DynamicMap benchmark uses this distance.
 inline constexpr double kCloudDistance = 0.05;
 
-/// The masks that a cleaned cloud stands for: a point of a scan is removed if no point of the cloud
-/// is at `distance` metres or less (the export step of the KTH DynamicMap benchmark).
+/// The masks that follow from a cleaned cloud: a point of a scan is removed if no point of the
+/// cloud is at `distance` metres or less (the export step of the KTH DynamicMap benchmark).
 /// @param cloud finite points in the world frame, in any order; if it is empty, every point is
 ///   removed
 /// @note A removed point that lies within the distance of a kept one counts as kept. If a cloud was
@@ -23,8 +23,7 @@ inline constexpr double kCloudDistance = 0.05;
 MaskStore masks_of_cloud(const EvaluationInput& input, const std::vector<Eigen::Vector3f>& cloud,
                          double distance);
 
-/// A cleaned cloud, and the masks that follow from it, which are computed when they are first asked
-/// for.
+/// A cleaned cloud, and the masks that follow from it, which are computed at first use.
 /// @note Only one thread at a time may use it.
 class CloudEstimate {
  public:

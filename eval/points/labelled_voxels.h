@@ -24,7 +24,7 @@ struct LabelledCloud {
   void append(const LabelledCloud& other);
 };
 
-/// Mean of points that come one by one, summed as offsets from the first one, so that it is as
+/// Mean of points that are added one by one, summed as offsets from the first one, so that it is as
 /// exact far from the origin as near it. The same points in the same order give the same bits.
 struct OffsetMean {
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -71,7 +71,7 @@ class LabelClasses {
 /// point in the whole of `cloud`. Among points within `kLabelTieMargin` of the nearest the one with
 /// the lowest index gives the label.
 /// @param voxel_size edge of a cell in metres
-/// @param classes say which ties are mixed, and change nothing else
+/// @param classes define which ties are mixed, and change nothing else
 /// @throws DataError if a point lies beyond the lattice or there are 2^32 points or more
 /// Source: ERASOR's public evaluation, which uses a voxel grid filter and a 1-NN search.
 LabelledVoxels voxelise(const LabelledCloud& cloud, double voxel_size, const LabelClasses& classes,

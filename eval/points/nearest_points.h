@@ -31,9 +31,9 @@ class LabelVote {
 
   struct Result {
     std::uint32_t point;
-    bool mixed_tie;  ///< A moving and a static point stood at the same distance.
+    bool mixed_tie;  ///< A moving and a static point had the same distance.
   };
-  /// @param moving_of says whether point i moves
+  /// @param moving_of whether point i moves
   template <class MovingOf>
   [[nodiscard]] Result decide(MovingOf&& moving_of) const {
     std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
@@ -55,9 +55,9 @@ class LabelVote {
   double nearest_ = std::numeric_limits<double>::infinity();
 };
 
-/// Answers whether any of many points lies within a fixed reach of a query point. The points are in
-/// the world frame, in metres. They stand in a k-d tree, so that a query costs little more at a
-/// place that thousands of scans saw.
+/// Finds out whether any of many points lies within a fixed reach of a query point. The points are
+/// in the world frame, in metres. They are in a k-d tree, so that a query costs little more at a
+/// place that thousands of scans observed.
 /// @tparam Point Eigen::Vector3d or Eigen::Vector3f; distances are in double
 template <class Point>
 class NearbyPoints {
@@ -81,7 +81,7 @@ class NearbyPoints {
 extern template class NearbyPoints<Eigen::Vector3d>;
 extern template class NearbyPoints<Eigen::Vector3f>;
 
-/// Gives query points the label of their exact nearest neighbour, however far away that is.
+/// Gives query points the label of their exact nearest neighbour, at any distance.
 class NearestLabels {
  public:
   /// Keeps `cloud`, which needs at least one point.

@@ -10,8 +10,8 @@
 
 namespace raymoval {
 
-/// A line of a published table: texts that say who and where (they are empty if not given), and the
-/// numbers by name. A number that is printed as missing has no value.
+/// A line of a published table: texts that name the method and the data (empty if not given), and
+/// the numbers by name. A number that is printed as missing has no value.
 struct PublishedRow {
   std::string method, sequence, stage, poses, reported_by;
   std::map<std::string, std::optional<double>> values;

@@ -13,8 +13,7 @@ MethodEntry raymoval_plus_entry() {
   entry.confidence = {
       "What was decided on a point, the evidence of its voxel, and the dynamic share of its "
       "object.",
-      // scripts/calibrate.cpp over ten simulated worlds, odd seeds, five sensors (EXPERIMENTS.md,
-      // "Confidence").
+      // Fitted to ten simulated worlds, odd seeds, five sensors (EXPERIMENTS.md, "Confidence").
       {{0.0000F, 0.0040F},
        {0.0247F, 0.0182F},
        {0.0680F, 0.0331F},

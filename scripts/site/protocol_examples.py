@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The worked example of docs/protocols.md: nine points of one scan, and an answer.
 
-    protocol_examples.py PATH/TO/raymoval            # writes the page's tables, and its pictures
-    protocol_examples.py PATH/TO/raymoval --check    # writes nothing; fails if one of them is not what it would write
+    protocol_examples.py PATH/TO/raymoval            # writes the page's table of rates, and its pictures
+    protocol_examples.py PATH/TO/raymoval --check    # writes nothing; fails if one of them is out of date
 
-The numbers are those that the program counts. A table in the page is what stands between its lines "<!-- table NAME -->"
-and "<!-- end -->"; the pictures are results/pictures/protocol_*.svg."""
+The program counts the numbers. The table stands between the lines "<!-- table rates -->" and "<!-- end -->" of the page.
+The pictures are results/pictures/protocol_*.svg."""
 
 import json
 import math
@@ -27,8 +27,7 @@ POINTS = (("a", 5.12, 0.11, ROAD, False), ("b", 5.31, 0.08, ROAD, False), ("c", 
 Z = -1.63
 RATES = {"erasor": ("PR", "RR", "F1"), "dynamicmap": ("SA", "DA", "AA", "HA"),
          "dynamicmap-strict": ("SA", "DA", "AA", "HA"), "mos": ("precision", "recall", "IoU")}
-ANSWERS = (("the answer", lambda p: p[4]), ("nothing removed", lambda p: False), ("all removed", lambda p: True),
-           ("what moves removed", lambda p: p[3] == CAR))
+ANSWERS = (("the answer", lambda p: p[4]), ("all moving points removed", lambda p: p[3] == CAR))
 BLUE, VERMILLION, GREY, INK = "#0072b2", "#d55e00", "#9a9a9a", "#222222"
 
 
@@ -232,12 +231,12 @@ def number(value, rate):
     return "n/a" if value is None else f"{value:.4f}" if rate == "F1" else f"{value:.3f}"
 
 
-def table(found, protocol):
-    rates = RATES[protocol]
-    lines = [f"| | {' | '.join(rates)} |", "|---|" + "---:|" * len(rates)]
-    for answer, protocols in found.items():
-        values = [number(protocols[protocol]["rates"].get(rate), rate) for rate in rates]
-        lines.append(f"| {answer} | {' | '.join(values)} |")
+def table(found):
+    lines = [f"| protocol | rates | {' | '.join(found)} |", "|---|---|" + "---|" * len(found)]
+    for protocol, rates in RATES.items():
+        answers = (", ".join(number(protocols[protocol]["rates"].get(rate), rate) for rate in rates)
+                   for protocols in found.values())
+        lines.append(f"| `{protocol}` | {', '.join(rates)} | {' | '.join(answers)} |")
     return "\n".join(lines)
 
 
@@ -252,15 +251,13 @@ def check_distances(words):
 
 
 def page(found):
-    """The page with its tables anew."""
+    """The page with the present table."""
     old = PAGE.read_text(encoding="utf-8")
     check_distances(old)
-    for protocol in RATES:
-        form = re.compile(rf"(<!-- table {protocol} -->\n).*?(<!-- end -->)", re.DOTALL)
-        if not form.search(old):
-            sys.exit(f"protocol_examples.py: {PAGE.name} has no '<!-- table {protocol} -->'.")
-        old = form.sub(lambda match: match[1] + table(found, protocol) + "\n" + match[2], old)
-    return old
+    form = re.compile(r"(<!-- table rates -->\n).*?(<!-- end -->)", re.DOTALL)
+    if not form.search(old):
+        sys.exit(f"protocol_examples.py: {PAGE.name} has no '<!-- table rates -->'.")
+    return form.sub(lambda match: match[1] + table(found) + "\n" + match[2], old)
 
 
 def main():

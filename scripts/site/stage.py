@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: MIT
-"""Lays out what mkdocs makes the site of: the pages of the repository where they stand in it, so that their links stay
-as they are, the files that they link to, and the pages that are made of what the program says of itself.
+"""Prepares the files from which mkdocs makes the site, and checks the site.
 
     stage.py --program PATH/TO/raymoval --out FOLDER [--cpp FOLDER] [--report FILE]
+    stage.py --check SITE
 
-FOLDER gets pages/ and mkdocs.yml. --cpp is what Doxygen made, --report the page of an example run. Without them their
-pages say how they are made."""
+The first form writes FOLDER/pages/ and FOLDER/mkdocs.yml. The pages are those of the repository, in the same folders, with
+the files that they link to, and the pages that are made from the program's output. --cpp is the output of Doxygen, --report
+the page of an example run. Without them their pages say how they are made.
+
+The second form checks a site that mkdocs made: each link and its anchor exist, and nothing is loaded from another site.
+Pages of Doxygen (cpp/) and the example's report are not checked."""
 
 import argparse
+import html.parser
 import json
 import pathlib
 import re
 import shutil
 import sys
+import urllib.parse
 
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
@@ -67,11 +73,12 @@ SECTIONS = (
         ("Every command", COMMANDS),
         ("Parameters", (("", PARAMETERS + "*.md"),)),
         ("Files of a run", "docs/results.md"),
+        ("Glossary", "docs/glossary.md"),
         ("Python", "docs/python.md"),
         ("Python, every name", PYTHON_API),
         ("C++, every header", CPP_API),
     )),
-    ("The house", (
+    ("The project", (
         ("Design", "docs/design.md"),
         ("The source", "docs/source-code.md"),
         ("How it is checked", "docs/how-it-is-checked.md"),
@@ -85,6 +92,46 @@ IF_THERE = ("docs/platforms.md", "docs/container.md", "docs/confidence.md", "doc
 # What cmake/install.cmake installs, and the page of the example.
 PAGES = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/*.md", "docs/recipes/*.md",
          "methods/README.md", "methods/*/*.md", "datasets/*/README.md", "examples/cpp_method/README.md")
+
+
+# mkdocs.yml without the sections and the folders.
+SETTINGS = """\
+site_name: raymoval
+site_description: Which method removes the moving things from a LiDAR map best, by how much, and how fast?
+use_directory_urls: false
+theme:
+  name: material
+  font: false
+  language: en
+  icon:
+    logo: material/radar
+  features: [navigation.tabs, navigation.sections, navigation.top, search.highlight, toc.follow]
+  palette:
+    - media: "(prefers-color-scheme: light)"
+      scheme: default
+      primary: blue grey
+      accent: deep orange
+      toggle: { icon: material/weather-night, name: Dark }
+    - media: "(prefers-color-scheme: dark)"
+      scheme: slate
+      primary: blue grey
+      accent: deep orange
+      toggle: { icon: material/weather-sunny, name: Light }
+extra_css: [site.css]
+plugins:
+  - search:
+      lang: en
+markdown_extensions:
+  - tables
+  - attr_list
+  - md_in_html
+  - toc:
+      permalink: true
+      # Anchors as forges make them.
+      slugify: !!python/object/apply:pymdownx.slugs.slugify { kwds: { case: lower } }
+  - pymdownx.highlight
+  - pymdownx.superfences
+"""
 
 
 class NavigationError(Exception):
@@ -200,14 +247,82 @@ def stage_pages(pages, folder):
 
 
 def settings(nav, out):
-    """mkdocs.yml: that of this folder, the sections, and where things are. What JSON writes is YAML, too."""
+    """The text of mkdocs.yml. JSON is also YAML."""
     places = {"docs_dir": str(out / "pages"), "site_dir": str(out.parent / "site"),
               "nav": nav, "watch": [str(HOUSE / "docs")]}
     lines = [f"{key}: {json.dumps(value)}" for key, value in places.items()]
-    return (HERE / "mkdocs.yml").read_text(encoding="utf-8") + "\n".join(lines) + "\n"
+    return SETTINGS + "\n".join(lines) + "\n"
+
+
+NOT_OURS = ("cpp/", "reference/report.html")
+# What a browser loads without being asked.
+LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src"), ("video", "src")}
+
+
+class Page(html.parser.HTMLParser):
+    """The anchors of a page, its links, and what it loads."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.anchors, self.links, self.loaded = {""}, [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        self.anchors.update(given[name] for name in ("id", "name") if given.get(name))
+        if tag == "a" and given.get("href"):
+            self.links.append(given["href"])
+        for name in ("src", "href"):
+            canonical = tag == "link" and given.get("rel") in ("canonical", "prev", "next")
+            if (tag, name) in LOADED and given.get(name) and not canonical:
+                self.loaded.append(given[name])
+
+
+def is_elsewhere(link):
+    return urllib.parse.urlsplit(link).scheme not in ("", "data") or link.startswith("//")
+
+
+def faults_of(site):
+    """What is wrong, a sentence each; and how many pages and links there are."""
+    pages = {path: Page(path.read_text(encoding="utf-8")) for path in sorted(site.rglob("*.html"))
+             if not path.relative_to(site).as_posix().startswith(NOT_OURS)}
+    faults, count = [], 0
+    for path, page in pages.items():
+        name = path.relative_to(site).as_posix()
+        if name == "404.html":  # Its links begin at the site's root, wherever that is.
+            continue
+        for link in page.loaded:
+            if is_elsewhere(link):
+                faults.append(f"{name} loads {link} from elsewhere.")
+        for link in page.links + page.loaded:
+            if is_elsewhere(link) or link.startswith("data:"):
+                continue
+            count += 1
+            parts = urllib.parse.urlsplit(link)
+            target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
+            if target.is_dir():
+                target /= "index.html"
+            anchor = urllib.parse.unquote(parts.fragment)
+            if not target.exists():
+                faults.append(f"{name}: {link} leads nowhere.")
+            elif target in pages and anchor not in pages[target].anchors:
+                faults.append(f"{name}: {link}: there is no such heading.")
+    return faults, len(pages), count
+
+
+def check(site):
+    if not (site / "index.html").is_file():
+        sys.exit(f"stage.py: {site} has no index.html; expected the folder of a site.")
+    faults, pages, links = faults_of(site.resolve())
+    for fault in faults:
+        print(fault)
+    print(f"stage.py: {pages} pages, {links} links, {len(faults)} faults")
+    sys.exit(1 if faults else 0)
 
 
 def main():
+    if sys.argv[1:2] == ["--check"] and len(sys.argv) == 3:
+        check(pathlib.Path(sys.argv[2]))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True, type=pathlib.Path)
     parser.add_argument("--out", required=True, type=pathlib.Path)

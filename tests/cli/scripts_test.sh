@@ -22,6 +22,14 @@ for script in scripts/*.sh scripts/workflow/check_method.sh; do
   tells 2 "--nonsense" "$script" --nonsense
 done
 
+# Unclear phrases: in pages without their code, in sources only in comments.
+printf '%s\n' 'A voxel is free.' 'What is told stands anyway.' '' '    those that' >page.md
+printf '%s\n' 'const char* text = "those that";' 'int a = 0;  // Those that move.' >source.h
+holds "dialect.sh finds unclear phrases" test "$(scripts/dialect.sh page.md source.h)" = \
+  "page.md:2:What is told stands anyway.
+source.h:2:int a = 0;  // Those that move."
+tells 2 "gone.md" scripts/dialect.sh gone.md
+
 # The version stands in CMakeLists.txt; what cannot read it there says the same.
 house=$(readlink -f "$scripts/..")
 version=$(sed -nE 's/^project\(raymoval VERSION ([0-9.]+).*/\1/p' "$house/CMakeLists.txt")

@@ -65,7 +65,7 @@ code=$?
 holds "the pages look right in Chromium: $(head -n 5 looked.txt)" test "$code" -eq 0 -o "$code" -eq 77
 
 # The check finds what it looks for.
-check() { python3 "$source_folder/scripts/site/check_site.py" "$site"; }
+check() { python3 "$source_folder/scripts/site/stage.py" --check "$site"; }
 page=$site/docs/clean.html
 cp "$page" good.html
 for fault in 'a href="gone.html":leads nowhere' 'a href="poses.html#gone":there is no such heading' \

@@ -14,7 +14,7 @@
 
 namespace raymoval::erasor {
 
-/// What became of the points of all scans. The first four counts add up to the points that were
+/// Counts of the points of all scans. The first four counts add up to the points that were
 /// read.
 struct PointCounts {
   std::int64_t out_of_range = 0;  ///< Outside the range limits.
@@ -27,10 +27,10 @@ struct PointCounts {
   PointCounts& operator+=(const PointCounts& other);
 };
 
-/// The label rule as the options want it: id 258 moves only with `truck_is_moving`.
+/// The label rule with the options applied: id 258 moves only with `truck_is_moving`.
 LabelRule effective_rule(const LabelRule& rule, const Options& options);
 
-/// What makes a map of scans. All parts outlive what is made with them.
+/// The inputs of a map. All parts must outlive the map.
 struct MapRules {
   const EvaluationInput& input;
   const Options& options;
@@ -47,13 +47,12 @@ inline std::int64_t PointCounts::*fate_of(const Eigen::Vector3d& point, LabelCla
   return horizontal_squared < limit * limit ? &PointCounts::cropped : &PointCounts::evaluated;
 }
 
-/// World pose of a scan in the frame that the options want.
+/// World pose of a scan in the frame of the options.
 Pose pose_of(const Scan& scan, const MapRules& rules);
 
 /// Steps 1 to 3 of the ground truth for one scan: crop, lift in the sensor frame, pose. Calls
-/// `visit(point, label)` for each point that is evaluated and, as is asked for, flagged or not.
-/// @param is_wanted of a point in the world says whether it is to be visited; what becomes of the
-/// others is not asked
+/// `visit(point, label)` for each evaluated point, flagged or not as requested. @param is_wanted
+/// whether a point of the world frame is visited; the others are skipped early
 template <class IsWanted, class Visit>
 void visit_placed_where(const CheckedScan& loaded, const MapRules& rules, bool flagged,
                         IsWanted&& is_wanted, Visit&& visit) {
@@ -80,11 +79,11 @@ void visit_placed(const CheckedScan& loaded, const MapRules& rules, bool flagged
 /// The points of a scan that are evaluated and not flagged, world frame, lifted.
 LabelledCloud place_scan(const CheckedScan& scan, const MapRules& rules);
 
-/// What becomes of the points of a scan.
+/// The outcome of each point of a scan.
 PointCounts count_points(const CheckedScan& scan, const MapRules& rules);
 
 /// The dense map, point by point: the voxels of all scans, one scan after the other. For searches
-/// of the nearest point however far away; a map of voxels needs none of it (see `TruthMap`).
+/// of the nearest point at any distance; a map of voxels does not need it (see `TruthMap`).
 /// @param task shown as progress
 /// @throws DataError if a scan's labels do not fit it
 LabelledCloud dense_map(const MapRules& rules, const std::string& task);

@@ -19,11 +19,11 @@
 
 namespace raymoval::erasor {
 
-/// The map of the points that a mask leaves: what `voxelise` makes of their dense map, bit by bit.
-/// It is made of what differs from the truth. The first pass finds the touched cells, in which
-/// points were removed. The second one adds up their voxels' means; all other voxels are those of
-/// the truth. The third one lets points vote for labels where both classes are near; elsewhere all
-/// labels are static. It takes 52 bytes a touched cell, 24 afterwards, and 16 a cell that votes.
+/// The map of the kept points, bit for bit equal to `voxelise` of their dense map. It stores only
+/// the differences from the truth. The first pass finds the touched cells, in which points were
+/// removed. The second one adds up their voxels' means; all other voxels are those of the truth.
+/// The third one lets points vote for labels where both classes are near; elsewhere all labels are
+/// static. It takes 52 bytes per touched cell, 24 afterwards, and 16 per voting cell.
 class EstimateMap : public ScanVisitor, public MapVoxels {
  public:
   /// @param truth of the same scans; must outlive this object
@@ -43,7 +43,7 @@ class EstimateMap : public ScanVisitor, public MapVoxels {
   [[nodiscard]] const PointCounts& points() const { return points_; }
   [[nodiscard]] std::int64_t mixed_label_ties() const { return mixed_label_ties_; }
 
-  /// What it holds in memory now, without the truth.
+  /// Present bytes of memory, without the truth.
   [[nodiscard]] std::size_t bytes() const {
     return touched_.bytes() + means_.bytes() + (votes_ ? votes_->bytes() : 0);
   }

@@ -15,7 +15,7 @@ namespace raymoval::erasor {
 /// Semantic id of the trucks that early published tables count as static.
 inline constexpr std::uint16_t kMovingTruck = 258;
 
-/// What a voxel is, by its label.
+/// The kind of a voxel, by its label.
 enum class VoxelKind : std::uint8_t {
   kNone,  ///< There is no voxel.
   kStatic,

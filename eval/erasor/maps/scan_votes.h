@@ -26,9 +26,9 @@ std::vector<DensePoint> dense_points(const std::vector<Eigen::Vector3d>& points,
                                      const MapRules& rules, const MapCells& cells, std::size_t scan,
                                      CellMeans& means);
 
-/// What a point of the dense map says to a voxel near it.
+/// The vote of a point of the dense map for a voxel near it.
 struct Offer {
-  std::uint32_t voter;  ///< Number of the voxel among those that vote.
+  std::uint32_t voter;  ///< Number of the voxel among the voting voxels.
   std::uint32_t word;   ///< Label of the point.
   double distance;      ///< From the voxel's mean, metres.
   bool moves;
@@ -37,7 +37,8 @@ struct Offer {
 /// Offers points of the dense map to the voxels in reach: a voxel's nearest point is never farther
 /// from its mean than half a diagonal.
 /// @param dense points of the dense map
-/// @param voter_of says which voter a cell is, by its number; `CellLattice::kNone`: it has no vote
+/// @param voter_of the number of a cell's voxel among the voting voxels; `CellLattice::kNone` if it
+/// has no vote
 /// @param mean_of the mean of a voxel, by its number; not a number if there is none
 template <class VoterOf, class MeanOf>
 void add_offers(const LabelledCloud& dense, const MapRules& rules, const CellLattice& cells,

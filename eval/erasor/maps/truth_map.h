@@ -10,10 +10,11 @@
 
 namespace raymoval::erasor {
 
-/// The map of all points of a sequence: what `voxelise` makes of the dense map, bit by bit, without
-/// the dense map. Points are never kept: one pass over the scans finds the cells, the next one adds
-/// up the voxels' means, the last one lets the points of the dense map vote for labels; each makes
-/// the points of the dense map again. Building it takes about 60 bytes a cell, keeping it 34.
+/// The map of all points of a sequence, bit for bit equal to `voxelise` of the dense map, but
+/// without the dense map. No points are stored. The first pass over the scans finds the cells, the
+/// second adds up the means of the voxels, and in the third the points of the dense map vote for
+/// labels. Each pass computes the points of the dense map again. Building it takes about 60 bytes a
+/// cell, keeping it 34.
 class TruthMap : public MapVoxels {
  public:
   /// @throws DataError as `load_checked`, or beyond the lattice
@@ -33,12 +34,13 @@ class TruthMap : public MapVoxels {
   [[nodiscard]] std::int64_t mixed_label_ties() const { return mixed_label_ties_; }
   /// The scan whose point gave a voxel its label.
   [[nodiscard]] std::uint32_t scan(Number number) const { return labels_[number].scan; }
-  /// What it takes in memory.
+  /// Bytes of memory.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   class Builder;
-  /// What a voxel is, and the scan whose point says so; no sequence has 2^29 scans.
+  /// The kind of a voxel, and the scan of the point that gave it its label; no sequence has 2^29
+  /// scans.
   struct Label {
     std::uint32_t kind : 3 = static_cast<std::uint32_t>(VoxelKind::kNone);
     std::uint32_t scan : 29 = 0;
