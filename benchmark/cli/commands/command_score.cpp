@@ -20,6 +20,7 @@
 #include "core/terminal_colour.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
+#include "datasets/truth_map.h"
 #include "eval/protocol_registry.h"
 
 namespace raymoval {
@@ -159,7 +160,7 @@ std::string score_json(const ScoreRecord& record) {
 }
 
 struct ScoreFlags {
-  std::string sequence, predictions, cloud, voxel;
+  std::string sequence, truth_map, predictions, cloud, voxel;
   OutputFlag json;
   std::vector<std::string> protocols, settings;
   SequenceFlags reading;
@@ -232,13 +233,30 @@ void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m
     const std::size_t i = record.protocols.size();
     record.protocols.push_back({protocol, results[i], oracle[i]});
   }
-  record.columns = {kColumnsVersion, scored.columns(scored.cloud_masks(estimate))};
+  // A map does not say from where its points were seen.
+  const bool is_map = scored.sequence().layout == kMapLayout;
+  record.columns = {kColumnsVersion, {}};
+  if (!is_map) record.columns.values = scored.columns(scored.cloud_masks(estimate));
+}
+
+/// A map has labels and a name, but no scans.
+void check_is_of_maps(SequenceFlags reading) {
+  for (const char* option : {"label-rule", "name"}) reading.texts[option].clear();
+  const std::string given = reading.first_given();
+  if (given.empty()) return;
+  throw UsageError(given + " is about scans, and --truth-map has none. Leave it out.");
 }
 
 void check_flags(const ScoreFlags& flags) {
-  if (flags.sequence.empty())
+  if (flags.sequence.empty() && flags.truth_map.empty())
     throw UsageError("score what? Expected `raymoval score PATH --predictions DIR`.");
-  check_not_both(flags.sequence);
+  if (!flags.truth_map.empty() && (!flags.sequence.empty() || flags.cloud.empty())) {
+    throw UsageError(
+        "--truth-map FILE takes the place of a sequence and goes with --cloud FILE: `raymoval "
+        "score --truth-map FILE --cloud FILE`.");
+  }
+  if (!flags.sequence.empty()) check_not_both(flags.sequence);
+  if (!flags.truth_map.empty()) check_is_of_maps(flags.reading);
   if (flags.predictions.empty() && flags.cloud.empty()) {
     throw UsageError(
         "--predictions DIR is missing: the folder with a label file for each scan (or a map with "
@@ -274,6 +292,7 @@ void check_json_is_no_input(const ScoreFlags& flags, const Sequence& sequence) {
   std::vector<std::filesystem::path> inputs = files_of(sequence);
   for (const std::filesystem::path& file : flags.reading.files()) inputs.push_back(file);
   if (!flags.cloud.empty()) inputs.emplace_back(flags.cloud);
+  if (!flags.truth_map.empty()) inputs.emplace_back(flags.truth_map);
   if (is_folder(flags.predictions)) {
     for (const std::filesystem::path& file : entries_of(flags.predictions)) inputs.push_back(file);
   }
@@ -285,8 +304,11 @@ ExitCode score(const ScoreFlags& flags) {
   const std::vector<ProtocolRequest> protocols = requested_protocols(flags);
   const int threads = flags.work.thread_count();
   Progress progress(flags.work.style());
-  Sequence sequence = open_sequence(flags.sequence, flags.reading.options(),
-                                    {threads, &progress, &interrupt_flag()});
+  const SequenceOptions options = flags.reading.options();
+  Sequence sequence =
+      flags.truth_map.empty()
+          ? open_sequence(flags.sequence, options, {threads, &progress, &interrupt_flag()})
+          : open_truth_map(flags.truth_map, options);
   tell_opening(sequence, progress);
   check_json_is_no_input(flags, sequence);
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
@@ -314,6 +336,9 @@ Command add_score_command(CommandParser& program) {
   CommandOptions options =
       program.add_command("score", "Scores label files or a cleaned map made by any program");
   SequenceFlags::add_place_to(options, flags->sequence);
+  options.add("--truth-map", "FILE", flags->truth_map,
+              "A labelled map in place of a sequence, for --cloud: the intensity of a point is its "
+              "label, 0 or 1 (1 moves), or SemanticKITTI's");
   options.add(
       "--predictions", "DIR", flags->predictions,
       "A folder of NNNNNN.label files, in which 251 to 259 mean removed and other labels kept");
@@ -336,6 +361,7 @@ Command add_score_command(CommandParser& program) {
       "  raymoval score --sequence data/05 --predictions out/labels\n"
       "  raymoval score --sequence data/05 --cloud static.pcd --voxel 0.1 --protocol erasor "
       "--protocol dynamicmap\n"
+      "  raymoval score --truth-map gt_cloud.pcd --cloud static.pcd --protocol dynamicmap\n"
       "  raymoval score data/05 --predictions out/labels --protocol dynamicmap "
       "--set protocol:dynamicmap.distance=0.1\n"
       "  raymoval score --sequence street --predictions "
