@@ -138,8 +138,11 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   for (const MethodRequest& request : suite.methods) {
     run.methods.push_back({request.name, request.method.full_name(), request.method.entry->version,
                            request.method.configuration});
-    if (request.sweep.empty()) continue;
-    run.methods.back().sweep = SweepRecord{request.sweep_of, request.sweep};
+    SuiteMethodRecord& method = run.methods.back();
+    if (!request.sweep.empty()) method.sweep = SweepRecord{request.sweep_of, request.sweep};
+    if (Configuration changed = request.changed_from(); !changed.empty()) {
+      method.changed_from = std::move(changed);
+    }
   }
   for (const ProtocolRequest& request : suite.protocols) {
     run.protocols.push_back({request.name, request.protocol,
