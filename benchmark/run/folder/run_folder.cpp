@@ -158,10 +158,10 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
 
 void write_result_files(const path& out, const ResultsRecord& results) {
   const RunResults shown = shown_results(results);
-  const std::vector<TextTable> tables = make_tables(shown);
   write_atomically(out / "results.csv", results_csv(shown));
-  write_atomically(out / "table.md", tables_markdown(shown, tables));
-  write_atomically(out / "table.tex", tables_latex(tables));
+  write_atomically(out / "table.md", tables_markdown(shown, make_tables(shown)));
+  write_atomically(out / "table.tex",
+                   tables_latex(make_tables(shown, {.what = latex_kinds(shown)})));
   write_results(out / "results.json", results);
 }
 
