@@ -61,6 +61,8 @@ struct ConfiguredMethod {
     return entry->manifest.empty() ? full_name() : "external:" + entry->manifest;
   }
   [[nodiscard]] std::unique_ptr<Remover> make() const { return entry->make(configuration); }
+  /// The parameters that have another value than in the variant, with the variant's value.
+  [[nodiscard]] Configuration changed_from() const;
 };
 
 }  // namespace raymoval

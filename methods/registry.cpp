@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "methods/registry.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "methods/beautymap/beautymap.h"
 #include "methods/controls/controls.h"
@@ -89,6 +91,14 @@ ConfiguredMethod with_defaults(const MethodEntry& entry, const MethodVariant& va
 }
 
 }  // namespace
+
+Configuration ConfiguredMethod::changed_from() const {
+  Configuration changed = with_defaults(*entry, variant).configuration;
+  std::erase_if(changed, [&](const auto& usual) {
+    return std::ranges::find(configuration, usual) != configuration.end();
+  });
+  return changed;
+}
 
 ConfiguredMethod MethodRegistry::configure(const std::string& name_and_variant) const {
   if (const auto manifest = external_manifest(name_and_variant)) {

@@ -113,18 +113,22 @@ std::string chosen_command(const CLI::App& program) {
 
 void CommandOptions::add(const std::string& names, const std::string& type, std::string& value,
                          const std::string& sentence) {
-  app_of(command_).add_option(names, value, sentence)->type_name(type);
+  app_of(command_).add_option(names, value, sentence)->type_name(type)->group(group_);
 }
 
 void CommandOptions::add(const std::string& names, const std::string& type,
                          std::vector<std::string>& values, const std::string& sentence) {
   // An option takes one value each time; words that stand alone are all values.
   const bool alone = !names.starts_with('-');
-  app_of(command_).add_option(names, values, sentence)->type_name(type)->allow_extra_args(alone);
+  app_of(command_)
+      .add_option(names, values, sentence)
+      ->type_name(type)
+      ->allow_extra_args(alone)
+      ->group(group_);
 }
 
 void CommandOptions::add_flag(const std::string& names, bool& value, const std::string& sentence) {
-  app_of(command_).add_flag(names, value, sentence);
+  app_of(command_).add_flag(names, value, sentence)->group(group_);
 }
 
 void CommandOptions::set_sentence(const std::string& name, const std::string& sentence) {

@@ -26,6 +26,9 @@ class CommandOptions {
   /// Adds an option without a value: `value` is true if the option is given.
   void add_flag(const std::string& names, bool& value, const std::string& sentence);
 
+  /// The heading in --help of the options that are added after this, such as "Method options".
+  void group(const std::string& heading) { group_ = heading; }
+
   /// Replaces the sentence of an option that was added before.
   void set_sentence(const std::string& name, const std::string& sentence);
 
@@ -43,6 +46,7 @@ class CommandOptions {
 
   void* command_;  ///< A CLI::App.
   std::string name_;
+  std::string group_ = "Options";
 };
 
 /// Reads the command line. It hides CLI11, whose headers take ten seconds to compile: only

@@ -40,6 +40,7 @@ std::string if_a_folder_is_meant(const std::string& suite) {
 void check_suite_alone(const SuiteFlags& flags) {
   std::string given = flags.sequence.first_given();
   if (!flags.protocols.empty()) given = "--protocol";
+  if (!flags.as.empty()) given = "--as";
   if (!flags.methods.empty()) given = "--method";
   if (!flags.sequences.empty()) given = "--sequence";
   if (given.empty()) return;
@@ -50,6 +51,16 @@ void check_suite_alone(const SuiteFlags& flags) {
 
 /// Adds the methods of the command line. One that is named and also part of "all" is added once.
 void add_methods(const SuiteFlags& flags, const MethodRegistry& registry, Suite& suite) {
+  if (!flags.as.empty()) {
+    const std::string& method = flags.methods.front();
+    if (flags.methods.size() > 1 || expanded_methods(method, registry) != std::vector{method}) {
+      throw UsageError("--as " + flags.as +
+                       ": names one method, but there are several. Run them one after the other "
+                       "with the same --out, or use a suite file.");
+    }
+    add_method(suite, method, flags.as, registry);
+    return;
+  }
   std::vector<std::string> named;
   for (const std::string& method : flags.methods) {
     if (expanded_methods(method, registry) == std::vector{method}) {
@@ -126,19 +137,26 @@ void warn_of_settings_without_effect(const Suite& suite) {
 }
 
 void SuiteFlags::add_to(CommandOptions& options) {
+  options.group("Sequence options");
   options.add("suite", "SUITE", suite,
               "Suite file (JSON, comments allowed), name of a shipped suite, or a sequence as "
               "for --sequence");
   options.add("--data", "ROOT", data, "Root of the data set that the suite calls {data}");
   options.add("--sequence", "PATH", sequences, "Sequence folder, ROOT:05, `street`, or a scene");
+  sequence.add_to(options);
+  options.group("Method options");
   options.add("--method", "NAME", methods,
               "Method to run, NAME or NAME:variant; NAME:all for all its variants, all for each "
               "method's default");
   options.add("--set", "SETTING", settings,
               "Parameter: METHOD.key=value or METHOD:variant.key=...; option of a protocol: "
               "protocol:NAME.key=...");
+  options.add(
+      "--as", "NAME", as,
+      "Name of the method in the results (default: METHOD:variant, with a * if --set changes "
+      "a parameter)");
   options.add("--protocol", "NAME", protocols, "Protocol to score by (default: erasor)");
-  sequence.add_to(options);
+  options.group("Limit options");
   options.add("--threads", "N", threads, "Use at most N threads (default: all cores)");
   options.add("--time-limit", "TIME", time_limit,
               "Time a cell may take, in seconds or as 5min, 2h (default: 30 s for each scan, at "

@@ -11,7 +11,7 @@ namespace raymoval {
 
 /// Options that say what a run is about: a suite file, or sequences and methods one by one.
 struct SuiteFlags {
-  std::string suite, data, threads, time_limit, memory_limit;
+  std::string suite, data, as, threads, time_limit, memory_limit;
   std::vector<std::string> sequences, methods, settings, protocols;
   SequenceFlags sequence;
 

@@ -86,7 +86,7 @@ std::string methods_html(const RunResults& results) {
     shown.insert(shown.end(), rates.begin(), rates.end());
   }
   table.groups.push_back({"cost", {kTimeHeading, "peak MiB"}});
-  for (const std::string& method : results.methods) {
+  for (const std::string& method : methods_best_first(results)) {
     TableRow row{method, {}, results.is_control(method)};
     for (const std::string& protocol : results.protocols) {
       for (const std::string& rate : results.rates_of(protocol)) {
@@ -103,6 +103,7 @@ std::string methods_html(const RunResults& results) {
       rate_units_text(shown) +
       " Bold: best, underlined: second; controls stand below and are not ranked. (4/5): the mean "
       "is over the 4 of 5 sequences that have a value. Click a heading to sort.");
+  add_change_notes(results, table);
   return html_table(table);
 }
 
@@ -110,16 +111,11 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
   std::string html;
   TableOptions options;
   options.outside = published;
+  options.what = {"accuracy", "sweeps", "ranking", "points", "confidence", "controls"};
+  for (const TextTable& table : make_tables(results, options)) html += html_table(table);
+  options.what = {"published"};
   for (const TextTable& table : make_tables(results, options)) {
-    const bool elsewhere =
-        table.title.starts_with("Time of ") || table.title == "Cells without a result";
-    if (elsewhere) continue;
-    if (table.title.starts_with("Published")) {
-      html +=
-          "<details><summary>What papers print</summary>\n" + html_table(table) + "</details>\n";
-    } else {
-      html += html_table(table);
-    }
+    html += "<details><summary>What papers print</summary>\n" + html_table(table) + "</details>\n";
   }
   std::string intervals;
   for (const TextTable& table : full_column_tables(results)) {
@@ -135,7 +131,10 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
 
 std::string losses_html(const RunResults& results) {
   std::string html;
-  for (const TextTable& table : loss_tables(results)) html += html_heat_table(table);
+  for (TextTable& table : loss_tables(results)) {
+    add_change_notes(results, table);
+    html += html_heat_table(table);
+  }
   return html;
 }
 
@@ -188,8 +187,8 @@ std::string charts_html(const RunResults& results) {
   }
   html += chart_html(stage_chart(results)) + "</div>\n";
   std::string stages;
-  for (const TextTable& table : make_tables(results)) {
-    if (table.title.starts_with("Time of ")) stages += html_table(table);
+  for (const TextTable& table : make_tables(results, {.what = {"times", "stages"}})) {
+    stages += html_table(table);
   }
   if (!stages.empty()) {
     html += "<details><summary>Time of each stage as tables</summary>\n" + stages + "</details>\n";

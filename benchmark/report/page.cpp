@@ -139,7 +139,8 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
       {"confidence", "Confidence", confidence_html(results)},
       {"accuracy", "Accuracy", accuracy_html(results, request.published)},
       {"cells", "Cells", cells_html(results)},
-      {"configuration", "Configuration", configuration_html(record, *request.methods)}};
+      {"configuration", "Configuration", configuration_html(record, *request.methods)},
+      {"cite", "Cite", citations_html(record.run, *request.methods)}};
   if (request.comparison != nullptr) {
     sections[2].html = comparison_html(*request.comparison, request.reference);
   }

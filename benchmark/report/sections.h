@@ -35,5 +35,7 @@ std::string failures_html(const RunResults& results);
 std::string comparison_html(const Comparison& comparison, const std::string& name);
 /// The effective parameters of each method, the sequences, protocols, program and machine.
 std::string configuration_html(const ResultsRecord& record, const MethodRegistry& methods);
+/// BibTeX of the methods and protocols, to copy.
+std::string citations_html(const RunRecord& run, const MethodRegistry& methods);
 
 }  // namespace raymoval

@@ -2,16 +2,11 @@
 // Where a report's numbers come from: failures, changes, configuration.
 #include "benchmark/report/sections.h"
 #include "benchmark/result/cell_json.h"
+#include "benchmark/tables/citations.h"
 #include "core/text.h"
 
 namespace raymoval {
 namespace {
-
-/// A value as it stands in result files, a text without its quotes.
-std::string plain_text(const ParameterValue& value) {
-  const auto* text = std::get_if<std::string>(&value);
-  return text != nullptr ? *text : value_text(value);
-}
 
 /// The parameter's table entry, if this program knows the method.
 const ParameterSpec* spec_of(const MethodRegistry& methods, const std::string& method,
@@ -190,6 +185,14 @@ std::string configuration_html(const ResultsRecord& record, const MethodRegistry
          sequences_part(record) + protocols_part(record.run) + machine_part(record.run) +
          "<details><summary>Keys of the cells</summary>\n" +
          html_table(key_table(record), TableHeight::kScrolled) + "</details>\n";
+}
+
+std::string citations_html(const RunRecord& run, const MethodRegistry& methods) {
+  Citations citations(methods);
+  citations.add_run(run);
+  return "<details><summary>BibTeX of the program, methods and protocols</summary>\n<p "
+         "class=\"note\">A click selects all of it.</p>\n<pre class=\"copied\">" +
+         html_text(citations.text()) + "</pre></details>\n";
 }
 
 }  // namespace raymoval

@@ -138,4 +138,9 @@ std::string value_text(const ParameterValue& value) {
   return std::visit(text_of, value);
 }
 
+std::string plain_text(const ParameterValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? *text : value_text(value);
+}
+
 }  // namespace raymoval

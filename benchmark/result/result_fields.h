@@ -225,6 +225,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<SuiteMethodRecord>
   visitor.field("version", method.version);
   visitor.field("parameters", method.parameters);
   visitor.optional("sweep", method.sweep);
+  visitor.optional("changed_from", method.changed_from);
 }
 
 template <class Visitor>

@@ -69,6 +69,23 @@ void add_times(const Cell& cell, RunResults& results) {
   }
 }
 
+/// Adds how the parameters of a method differ from its variant; points of a sweep add it once.
+void add_changed(const SuiteMethodRecord& method, RunResults& results) {
+  if (!method.changed_from) return;
+  ChangedMethod changed{method.sweep ? method.sweep->of : method.name, ""};
+  for (const auto& [key, value] : method.parameters) {
+    for (const auto& [name, usual] : *method.changed_from) {
+      if (name != key) continue;
+      changed.differences += (changed.differences.empty() ? "" : ", ") + key + " = " +
+                             plain_text(value) + " (default " + plain_text(usual) + ")";
+    }
+  }
+  for (const ChangedMethod& known : results.changed) {
+    if (known.name == changed.name) return;
+  }
+  results.changed.push_back(std::move(changed));
+}
+
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -89,6 +106,13 @@ const std::string& RunResults::kind_of(const std::string& protocol) const {
 const Cell* RunResults::find(const std::string& sequence, const std::string& method) const {
   for (const Cell& cell : cells) {
     if (cell.sequence == sequence && cell.name == method) return &cell;
+  }
+  return nullptr;
+}
+
+const DataRecord* RunResults::data_of(const std::string& sequence) const {
+  for (const Cell& cell : cells) {
+    if (cell.sequence == sequence && cell.data) return &*cell.data;
   }
   return nullptr;
 }
@@ -191,11 +215,11 @@ RunResults shown_results(ResultsRecord results) {
     shown.protocol_kinds[protocol.name] = protocol.protocol;
   }
   for (const SuiteMethodRecord& method : results.run.methods) {
+    add_changed(method, shown);
     if (!method.sweep) continue;
     SweptCell swept{method.name, method.sweep->of, {}};
     for (const auto& [key, value] : method.sweep->values) {
-      const auto* text = std::get_if<std::string>(&value);
-      swept.values.emplace_back(key, text != nullptr ? *text : value_text(value));
+      swept.values.emplace_back(key, plain_text(value));
     }
     shown.sweeps.push_back(std::move(swept));
   }

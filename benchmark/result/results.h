@@ -44,6 +44,15 @@ struct Sweep {
   std::vector<const SweptCell*> points;  ///< At least one.
 };
 
+/// A method with other parameters than its variant, or a sweep of such a method.
+struct ChangedMethod {
+  std::string name;         ///< Of the method, or SweptCell::of.
+  std::string differences;  ///< "range_max = 40 (default 60), tau0 = 0.2 (default 0.3)".
+
+  /// The footnote of tables: "raymoval:offline*: range_max = 40 (default 60)".
+  [[nodiscard]] std::string note() const { return name + ": " + differences; }
+};
+
 /// Columns of a method, added up over all sequences that it finished.
 struct MethodColumns {
   std::string cell;
@@ -73,6 +82,7 @@ struct RunResults {
   std::vector<MethodReliability> reliability;  ///< Of methods that were asked.
   std::vector<MethodTimes> times;              ///< Controls are left out.
   std::vector<SweptCell> sweeps;
+  std::vector<ChangedMethod> changed;
   std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
   /// Names in the registry of the protocols that the suite calls otherwise, by their names in it.
@@ -82,6 +92,8 @@ struct RunResults {
   [[nodiscard]] const std::string& kind_of(const std::string& protocol) const;
   /// The cell of a sequence and method; null if there is none.
   [[nodiscard]] const Cell* find(const std::string& sequence, const std::string& method) const;
+  /// What was read of a sequence; null if no cell says it.
+  [[nodiscard]] const DataRecord* data_of(const std::string& sequence) const;
   /// A rate of a cell; no value if it is undefined or the cell has no result.
   [[nodiscard]] std::optional<double> rate(const std::string& sequence, const std::string& method,
                                            const std::string& protocol,

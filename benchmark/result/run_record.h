@@ -33,6 +33,8 @@ struct SuiteMethodRecord {
   std::string version;
   Configuration parameters = {};
   std::optional<SweepRecord> sweep = std::nullopt;  ///< No value if it is no point of a sweep.
+  /// The variant's values of the parameters that differ from it, without swept ones.
+  std::optional<Configuration> changed_from = std::nullopt;
 };
 
 /// Says which cell of a run is meant.

@@ -40,8 +40,26 @@ void check_cell_name(const std::string& name) {
 }
 
 [[noreturn]] void throw_same_name(const std::string& what, const std::string& name) {
-  throw UsageError("two " + what + " of this run would be called '" + name +
-                   "'. Leave one out, or give it another name with \"as\" in a suite file.");
+  throw UsageError(
+      "two " + what + " of this run would be called '" + name +
+      "'. Leave one out, or give it another name with \"as\" in a suite file or --as.");
+}
+
+/// Puts a '*' behind the name of a variant whose parameters were changed. A name of "as" stays.
+void mark_changed(MethodRequest& request) {
+  const std::string plain = request.method.full_name();
+  const std::string base = request.sweep_of.empty() ? request.name : request.sweep_of;
+  if (base != plain && base != plain + "*") return;
+  const std::string marked = plain + (request.changed_from().empty() ? "" : "*");
+  request.name.replace(0, base.size(), marked);
+  if (!request.sweep_of.empty()) request.sweep_of = marked;
+}
+
+/// @throws UsageError if one of the first `count` methods has the name, or a name with its folder
+void check_name_is_free(const Suite& suite, std::size_t count, const std::string& name) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (folder_name(suite.methods[i].name) == folder_name(name)) throw_same_name("methods", name);
+  }
 }
 
 /// "town" of "town:scans=60": a scene that the program brings along.
@@ -51,6 +69,15 @@ bool is_built_in(const std::string& path) {
 }
 
 }  // namespace
+
+Configuration MethodRequest::changed_from() const {
+  Configuration changed = method.changed_from();
+  std::erase_if(changed, [&](const auto& usual) {
+    return std::ranges::any_of(sweep,
+                               [&](const auto& swept) { return swept.first == usual.first; });
+  });
+  return changed;
+}
 
 Setting parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -91,16 +118,16 @@ MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, con
                      counted_text(names.size(), "method") +
                      ", and one is expected here: " + join(names) + ".");
   }
-  MethodRequest request;
-  request.method = registry.configure(name_and_variant);
-  request.name = as.empty() ? request.method.full_name() : as;
-  check_cell_name(request.name);
-  for (const MethodRequest& known : suite.methods) {
-    if (folder_name(known.name) != folder_name(request.name)) continue;
-    throw_same_name("methods", request.name);
-  }
-  suite.methods.push_back(std::move(request));
+  const ConfiguredMethod method = registry.configure(name_and_variant);
+  add_request(suite, {as.empty() ? method.full_name() : as, method});
   return suite.methods.back();
+}
+
+void add_request(Suite& suite, MethodRequest request) {
+  check_cell_name(request.name);
+  mark_changed(request);
+  check_name_is_free(suite, suite.methods.size(), request.name);
+  suite.methods.push_back(std::move(request));
 }
 
 std::vector<std::string> expanded_methods(const std::string& name, const MethodRegistry& registry) {
@@ -213,13 +240,19 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (!used[i]) throw_no_target(suite, settings[i].target);
   }
+  for (MethodRequest& request : suite.methods) mark_changed(request);
+  for (std::size_t i = 0; i < suite.methods.size(); ++i) {
+    check_name_is_free(suite, i, suite.methods[i].name);
+  }
   check_values_fit(suite);
 }
 
 std::vector<std::string> settings_without_effect(const Suite& suite) {
   const auto lines_of = [](const MethodRequest& request, const std::string& name) {
-    return without_effect(request.sweep_of.empty() ? request.name : request.sweep_of,
-                          request.method.entry->parameters, request.method.configuration, {name});
+    std::string owner = request.sweep_of.empty() ? request.name : request.sweep_of;
+    std::erase(owner, '*');
+    return without_effect(owner, request.method.entry->parameters, request.method.configuration,
+                          {name});
   };
   std::vector<std::string> lines;
   for (const MethodRequest& request : suite.methods) {

@@ -25,11 +25,16 @@ SequenceRequest absolute_place(const SequenceRequest& place);
 
 /// A method of a suite. Its cells have its `name`.
 struct MethodRequest {
-  std::string name;  ///< Unique in the suite: "raymoval:online", or what "as" says.
+  /// Unique in the suite: "raymoval:online", "raymoval:online*" if a parameter differs from the
+  /// variant, or what "as" says.
+  std::string name;
   ConfiguredMethod method;
   std::string sweep_of = {};  ///< Name without the swept values, if this is one point of a sweep.
   Configuration sweep = {};   ///< The swept values of this point.
   std::vector<std::string> given = {};  ///< Parameters that somebody set, swept ones included.
+
+  /// The parameters that differ from the variant, with the variant's value; without swept ones.
+  [[nodiscard]] Configuration changed_from() const;
 };
 
 /// A protocol of a suite with its effective options.
@@ -79,6 +84,10 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
 MethodRequest& add_method(Suite& suite, const std::string& name_and_variant, const std::string& as,
                           const MethodRegistry& registry);
 
+/// Adds a method with its parameters. If one of them differs from the variant, the name gets a '*'.
+/// @throws UsageError if the name is taken
+void add_request(Suite& suite, MethodRequest request);
+
 /// The methods that a name stands for, with their variants: "all" for the default variant of each
 /// method of the registry but the controls, "raymoval:all" for all variants of one method, and any
 /// other name for itself.
@@ -89,7 +98,8 @@ std::vector<std::string> expanded_methods(const std::string& name, const MethodR
 ProtocolRequest& add_protocol(Suite& suite, const std::string& protocol, const std::string& as);
 
 /// Applies settings: first those for protocols, then those for all variants of a method, then those
-/// that name a cell.
+/// that name a cell. A method whose parameters now differ from its variant gets a '*' behind its
+/// name.
 /// @throws UsageError if one names nothing of the suite, or the same value is set twice;
 /// ConfigurationError if a method's values do not fit together, be they set here or by the suite
 void apply_settings(Suite& suite, const std::vector<Setting>& settings);

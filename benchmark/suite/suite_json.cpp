@@ -192,23 +192,23 @@ void add_points(const std::string& name, const std::string& as, const json& set,
     if (!is_sweep(value)) plain[key] = value;
   }
   for (const SweepPoint& point : sweep_points(set, where)) {
-    ConfiguredMethod method = registry.configure(name);
-    const MethodEntry& entry = *method.entry;
-    Configuration values;
+    MethodRequest request{"", registry.configure(name)};
+    const MethodEntry& entry = *request.method.entry;
     json together = plain;
     for (const auto& [key, value] : point) {
       together[key] = value;
-      values.emplace_back(
+      request.sweep.emplace_back(
           key, checked_value(entry.name, find_parameter(entry.name, entry.parameters, key), value));
     }
-    const std::string base = as.empty() ? method.full_name() : as;
-    MethodRequest& added =
-        add_method(suite, name, values.empty() ? as : point_name(base, values), registry);
-    apply_object(together, entry.name, where, entry.parameters, added.method.configuration);
-    for (const auto& [key, value] : together.items()) added.given.push_back(key);
-    if (values.empty()) continue;
-    added.sweep_of = base;
-    added.sweep = values;
+    apply_object(together, entry.name, where, entry.parameters, request.method.configuration);
+    for (const auto& [key, value] : together.items()) request.given.push_back(key);
+    const std::string base = as.empty() ? request.method.full_name() : as;
+    request.name = base;
+    if (!request.sweep.empty()) {
+      request.sweep_of = base;
+      request.name = point_name(base, request.sweep);
+    }
+    add_request(suite, std::move(request));
   }
 }
 

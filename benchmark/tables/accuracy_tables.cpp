@@ -23,26 +23,27 @@ std::vector<MethodRates> run_methods(const RunResults& results, const std::strin
   return methods;
 }
 
-MethodRates outside_rates(const std::vector<std::string>& sequences, const OutsideColumn& given) {
+MethodRates outside_rates(const std::vector<std::string>& sequences, const OutsideColumn& given,
+                          std::string OutsideRow::*which) {
   MethodRates method{given.heading};
   method.printed_digits = published_form(given.protocol).decimals;
-  for (const std::string& sequence : sequences) method.by_sequence.push_back(given.find(sequence));
+  for (const std::string& sequence : sequences) {
+    method.by_sequence.push_back(given.find(which, sequence));
+  }
   method.status.assign(sequences.size(), "-");
   method.ms.resize(sequences.size());
   return method;
 }
 
-/// Whether `given` has rates of a sequence by a protocol of the run.
-bool is_beside(const OutsideColumn& given, const std::string& sequence, const RunResults& results) {
-  return given.find(sequence) != nullptr &&
-         std::any_of(
-             results.protocols.begin(), results.protocols.end(),
-             [&](const std::string& name) { return results.kind_of(name) == given.protocol; });
-}
-
+/// Whether `given` has rates that may stand beside a sequence of the run.
 bool shares_sequence(const OutsideColumn& given, const RunResults& results) {
-  return std::any_of(results.sequences.begin(), results.sequences.end(),
-                     [&](const std::string& name) { return is_beside(given, name, results); });
+  return std::ranges::any_of(results.sequences,
+                             [&](const std::string& name) {
+                               return given.find(&OutsideRow::beside, name) != nullptr;
+                             }) &&
+         std::ranges::any_of(results.protocols, [&](const std::string& name) {
+           return results.kind_of(name) == given.protocol;
+         });
 }
 
 /// What the rates of a table are, below it.
@@ -77,10 +78,11 @@ std::vector<TextTable> published_of(const std::string& protocol, const TableOpti
   if (grid.rates.empty()) return {};
   for (const OutsideColumn& given : options.outside) {
     if (given.protocol != protocol) continue;
-    for (const auto& [name, rates] : given.sequences) add_once(grid.sequences, name);
+    for (const OutsideRow& row : given.rows) add_once(grid.sequences, row.sequence);
   }
   for (const OutsideColumn& given : options.outside) {
-    if (given.protocol == protocol) grid.methods.push_back(outside_rates(grid.sequences, given));
+    if (given.protocol != protocol) continue;
+    grid.methods.push_back(outside_rates(grid.sequences, given, &OutsideRow::sequence));
   }
   std::vector<TextTable> tables = rate_tables(grid, options);
   tables.back().notes.emplace_back(form.note);
@@ -117,7 +119,7 @@ std::vector<TextTable> accuracy_tables(const RunResults& results, const std::str
   grid.timed = shows_time(options) && options.layout == TableLayout::kMethodRows;
   for (const OutsideColumn& given : options.outside) {
     if (given.protocol != results.kind_of(protocol) || !shares_sequence(given, results)) continue;
-    grid.methods.push_back(outside_rates(results.sequences, given));
+    grid.methods.push_back(outside_rates(results.sequences, given, &OutsideRow::beside));
   }
   return run_tables(grid, results, protocol, options, rate_words(grid, options));
 }
@@ -139,16 +141,6 @@ std::vector<TextTable> published_tables(const RunResults& results, const TableOp
     for (TextTable& table : published_of(entry.name, options)) tables.push_back(std::move(table));
   }
   return tables;
-}
-
-std::vector<std::string> unpublished_sequences(const RunResults& results,
-                                               const std::vector<OutsideColumn>& outside) {
-  std::vector<std::string> names = results.sequences;
-  std::erase_if(names, [&](const std::string& name) {
-    return std::any_of(outside.begin(), outside.end(),
-                       [&](const auto& given) { return is_beside(given, name, results); });
-  });
-  return names;
 }
 
 std::string controls_text(const RunResults& results) {

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/tables/published_columns.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
 #include "benchmark/suite/shipped_suites.h"
+#include "benchmark/tables/table_options.h"
 #include "core/error.h"
+#include "core/text.h"
+#include "datasets/clouds/frames.h"
 #include "eval/protocol_registry.h"
 #include "eval/published/published.h"
 
@@ -17,12 +23,18 @@ const std::map<std::string, PublishedForm>& published_forms() {
   static const std::map<std::string, PublishedForm> forms = {
       {"erasor",
        {.sequence_prefix = "kitti-",
+        .frames = {{"00", "4390:4530:2"},
+                   {"01", "150:250:1"},
+                   {"02", "860:950:2"},
+                   {"05", "2350:2670:2"},
+                   {"07", "630:820:2"}},
         .note = "Values as printed (Raymoval paper, Table 2); the means are computed from them, "
                 "since two of the printed means are misprints.",
         .files = {"raymoval_table2.json"}}},
       {"dynamicmap",
        {.title = "Published, DynamicMap benchmark",
         .sequence_prefix = "kth-",
+        .frames = {{"00", "4390:4530:1"}, {"05", "2350:2670:1"}},
         .decimals = 2,
         .comparable = false,
         .note =
@@ -51,14 +63,53 @@ OutsideColumn& column_of(const std::string& method, const std::string& protocol,
   return columns.back();
 }
 
+/// Why rows of papers may not stand beside a sequence that has their name; empty if they may.
+std::string why_not_beside(const PublishedForm& form, const std::string& sequence,
+                           const DataRecord* data) {
+  const auto known = form.frames.find(sequence);
+  if (known == form.frames.end()) return "which frames the papers used is not known";
+  const FrameRange range = parse_frame_range(known->second);
+  const auto scans = static_cast<std::size_t>((*range.last - *range.first) / range.stride + 1);
+  const std::string expected =
+      fmt::format("the papers have frames {} ({} scans), ", known->second, scans);
+  if (data == nullptr) return expected + "and no cell has read its scans";
+  const std::string ends = fmt::format("{}:{}:", *range.first, *range.last);
+  if (data->frames.starts_with(ends) && data->scans == scans) return "";
+  return expected +
+         fmt::format("and this run has {} ({})", data->frames, counted_text(data->scans, "scan"));
+}
+
 }  // namespace
 
-const std::vector<Rate>* OutsideColumn::find(const std::string& name) const {
-  const std::string prefix = published_form(protocol).sequence_prefix;
-  for (const auto& [sequence, values] : sequences) {
-    if (sequence == name || prefix + sequence == name) return &values;
+const std::vector<Rate>* OutsideColumn::find(std::string OutsideRow::*which,
+                                             const std::string& name) const {
+  const auto found = std::ranges::find(rows, name, which);
+  return found == rows.end() ? nullptr : &found->rates;
+}
+
+std::vector<std::string> set_beside(std::vector<OutsideColumn>& columns,
+                                    const RunResults& results) {
+  std::vector<std::string> kinds, lines;
+  for (const std::string& protocol : results.protocols) add_once(kinds, results.kind_of(protocol));
+  for (const std::string& sequence : results.sequences) {
+    bool any = false;
+    std::vector<std::string> reasons;
+    for (OutsideColumn& column : columns) {
+      const PublishedForm& form = published_form(column.protocol);
+      for (OutsideRow& row : column.rows) {
+        const bool named =
+            row.sequence == sequence || form.sequence_prefix + row.sequence == sequence;
+        if (!named || !is_among(kinds, column.protocol)) continue;
+        const std::string why = why_not_beside(form, row.sequence, results.data_of(sequence));
+        if (why.empty()) row.beside = sequence;
+        any = any || why.empty();
+        if (!why.empty()) add_once(reasons, why);
+      }
+    }
+    if (reasons.empty()) reasons = {"no paper has numbers for it by " + join(kinds, " or ")};
+    if (!any) lines.push_back(sequence + ": " + join(reasons, "; "));
   }
-  return nullptr;
+  return lines;
 }
 
 const PublishedForm& published_form(const std::string& protocol) {
@@ -76,7 +127,7 @@ std::vector<OutsideColumn> published_columns() {
       for (const PublishedRow& row : load_published_table(folder / file).rows) {
         std::vector<Rate> rates;
         for (const auto& [name, value] : row.values) rates.push_back({name, value});
-        column_of(row.method, entry.name, columns).sequences.emplace_back(row.sequence, rates);
+        column_of(row.method, entry.name, columns).rows.push_back({row.sequence, rates});
       }
     }
   }

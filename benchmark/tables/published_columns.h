@@ -1,30 +1,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "benchmark/result/results.h"
 
 namespace raymoval {
 
-/// Rates that do not come from the run, such as a method's row of a paper.
+/// Rates on a sequence that do not come from the run.
+struct OutsideRow {
+  std::string sequence;  ///< As the paper calls it.
+  std::vector<Rate> rates;
+  std::string beside = {};  ///< The sequence of the run with the same frames; empty if none has.
+};
+
+/// Rates that do not come from the run, such as a method's rows of a paper.
 struct OutsideColumn {
   std::string heading;
   std::string protocol;  ///< Name in the registry of protocols.
-  std::vector<std::pair<std::string, std::vector<Rate>>> sequences;
+  std::vector<OutsideRow> rows;
 
-  /// Rates of what a run calls `name`. A paper may call "05" what the shipped suites call
-  /// "kitti-05" (see `PublishedForm`). Null if there are none.
-  [[nodiscard]] const std::vector<Rate>* find(const std::string& name) const;
+  /// Rates on the sequence called `name` by `which`: `&OutsideRow::sequence` or
+  /// `&OutsideRow::beside`. Null if there are none.
+  [[nodiscard]] const std::vector<Rate>* find(std::string OutsideRow::*which,
+                                              const std::string& name) const;
 };
 
 /// How papers print the rates of a protocol.
 struct PublishedForm {
   const char* title = "Published";
   const char* sequence_prefix = "";  ///< Stands before a paper's name in the shipped suites.
-  int decimals = 3;                  ///< Digits that are printed.
+  /// Frames of the papers' sequences, by the papers' names, where they are known.
+  std::map<std::string, std::string> frames = {};
+  int decimals = 3;        ///< Digits that are printed.
   bool comparable = true;  ///< Whether all rows are of one kind of data, over which a mean
                            ///< makes sense.
   const char* note = "";   ///< Stands below the table.
@@ -40,5 +50,11 @@ const PublishedForm& published_form(const std::string& protocol);
 /// folder, else where they were installed.
 /// @throws DataError if they are in neither place
 std::vector<OutsideColumn> published_columns();
+
+/// Sets rows beside those sequences of the run that have the paper's name (with or without the
+/// prefix), frames and number of scans. The papers' data is not at hand, so no fingerprint of it is
+/// known.
+/// @return a line with the reason for each sequence that no row may stand beside
+std::vector<std::string> set_beside(std::vector<OutsideColumn>& columns, const RunResults& results);
 
 }  // namespace raymoval

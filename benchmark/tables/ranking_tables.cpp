@@ -128,7 +128,7 @@ std::vector<TextTable> ranking_tables(const RunResults& results, const TableOpti
   table.notes.push_back(
       "Ranks; what is displayed alike ties. change: places gained (+) or lost from the first "
       "protocol to the one where most are; -: not in all sequences. Differences within the "
-      "intervals (`raymoval table RUN --columns`) are no ranking.");
+      "intervals are no ranking.");
   const bool several = results.sequences.size() > 1;
   if (!several || options.disagreements) {
     for (const std::string& sequence : results.sequences) {

@@ -255,6 +255,12 @@ TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOp
   return row;
 }
 
+void sort_blocks(TextTable& table, const RateGrid& grid, const TableOptions& options) {
+  for (const RowRange& block : blocks_of(table)) {
+    sort_block(table, block, grid_columns(grid, false), options.sort);
+  }
+}
+
 std::vector<TextTable> rate_tables(const RateGrid& grid, const TableOptions& options) {
   if (options.layout == TableLayout::kSequenceRows) return {methods_side_by_side(grid, options)};
   std::vector<TextTable> tables = {sequence_blocks(grid, options)};

@@ -43,6 +43,9 @@ struct RateGrid {
 /// A row for each method in a block for each sequence, in the order of the grid, without marks.
 TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options);
 
+/// Sorts the rows of each block as the options say; those without a value come last.
+void sort_blocks(TextTable& table, const RateGrid& grid, const TableOptions& options);
+
 /// The means of a method's rates over the sequences, and its time if the grid has times.
 TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options);
 

@@ -30,22 +30,9 @@ TableCell summary_cell(const RunResults& results, const std::string& cell,
 
 /// The methods, best first by the first protocol; the controls if there is nothing else.
 std::vector<std::string> summary_methods(const RunResults& results) {
-  std::vector<std::string> methods;
-  for (const std::string& method : results.methods) {
-    if (!results.is_control(method)) methods.push_back(method);
-  }
-  if (methods.empty()) return results.methods;
-  if (results.protocols.empty()) return methods;
-  const SummaryColumn main{results.protocols.front(),
-                           results.headline_of(results.protocols.front())};
-  const double sign = rate_spec(main.rate).higher_is_better ? 1.0 : -1.0;
-  const auto value_of = [&](const std::string& cell) {
-    const auto mean = summary_cell(results, cell, main).value;
-    return mean ? sign * *mean : -1e9;
-  };
-  std::stable_sort(methods.begin(), methods.end(),
-                   [&](const auto& a, const auto& b) { return value_of(a) > value_of(b); });
-  return methods;
+  std::vector<std::string> methods = methods_best_first(results);
+  std::erase_if(methods, [&](const std::string& method) { return results.is_control(method); });
+  return methods.empty() ? results.methods : methods;
 }
 
 /// The rates of the first protocol; of the others the main one if it has another name.
@@ -167,6 +154,9 @@ std::string run_summary(const RunResults& results, const std::string& place) {
     const std::string shown = fitting_text(by_sequence);
     // Half of the sequences would mislead: all or none.
     if (shown == to_plain(by_sequence)) text += "\n" + shown;
+  }
+  for (const ChangedMethod& changed : results.changed) {
+    text += wrapped(changed.note(), kTerminalWidth);
   }
   text += failures_text(results);
   const bool controls = std::ranges::any_of(

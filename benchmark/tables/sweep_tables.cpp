@@ -50,6 +50,7 @@ TextTable sweep_table(const RateGrid& grid, const TableOptions& options) {
       table.rows.back().block = "mean over the sequences";
     }
   }
+  sort_blocks(table, grid, options);
   mark_curve(grid, table);
   return table;
 }

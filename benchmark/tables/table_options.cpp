@@ -115,8 +115,64 @@ void check_rates(const TableOptions& options, const RunResults& results) {
   };
   for (const std::string& rate : options.rates) check("--rates", rate);
   for (const auto& [rate, decimals] : options.decimals_of) check("--decimals", rate);
-  known.insert(known.end(), {"name", "none"});
+  known.insert(known.end(), {kMemoryColumn, "name", "none"});
   check("--sort", options.sort);
+}
+
+std::vector<std::string> methods_sorted_by(const RunResults& results,
+                                           const std::vector<std::string>& sequences,
+                                           const std::string& column) {
+  std::vector<std::string> methods = results.methods;
+  if (column == "name") std::ranges::sort(methods);
+  std::map<std::string, double> goodness;
+  for (const std::string& method : methods) {
+    std::optional<double> cost;
+    if (column == kTimeRate) cost = results.ms_per_scan(method);
+    if (column == kMemoryColumn) cost = results.peak_mib(method);
+    if (cost) goodness[method] = -*cost;
+    for (const std::string& protocol : results.protocols) {
+      if (!results.gives(protocol, column)) continue;
+      SegmentValues values;
+      for (const std::string& sequence : sequences) {
+        values.push_back(results.rate(sequence, method, protocol, column));
+      }
+      const auto mean = mean_cell({}, column, mean_of(values), sequences.size()).value;
+      if (mean) goodness[method] = rate_spec(column).higher_is_better ? *mean : -*mean;
+      break;
+    }
+  }
+  std::ranges::stable_sort(methods, [&](const std::string& a, const std::string& b) {
+    const auto left = goodness.find(a), right = goodness.find(b);
+    if (right == goodness.end()) return left != goodness.end();
+    return left != goodness.end() && left->second > right->second;
+  });
+  return methods;
+}
+
+std::vector<std::string> methods_best_first(const RunResults& results) {
+  if (results.protocols.empty()) return results.methods;
+  return methods_sorted_by(results, results.sequences,
+                           results.headline_of(results.protocols.front()));
+}
+
+void sort_results(const std::string& column, RunResults& results) {
+  if (column == "none") return;
+  const auto by_place_in = [](const std::vector<std::string>& order, auto member) {
+    return [&order, member](const auto& a, const auto& b) {
+      return std::ranges::find(order, a.*member) < std::ranges::find(order, b.*member);
+    };
+  };
+  for (const std::string& sequence : results.sequences) {
+    const auto order = methods_sorted_by(results, {sequence}, column);
+    const auto own = std::ranges::stable_partition(
+        results.cells, [&](const Cell& cell) { return cell.sequence != sequence; });
+    std::ranges::stable_sort(own, by_place_in(order, &Cell::name));
+  }
+  results.methods = methods_sorted_by(results, results.sequences, column);
+  std::ranges::stable_sort(results.columns, by_place_in(results.methods, &MethodColumns::cell));
+  std::ranges::stable_sort(results.times, by_place_in(results.methods, &MethodTimes::cell));
+  std::ranges::stable_sort(results.reliability,
+                           by_place_in(results.methods, &MethodReliability::cell));
 }
 
 void parse_decimals(const std::string& text, TableOptions& options) {
@@ -171,14 +227,8 @@ void apply_display_names(const DisplayNames& names, RunResults& results,
     if (found != names.end()) name = found->second;
   };
   for (OutsideColumn& column : outside) {
-    for (auto& [sequence, values] : column.sequences) {
-      // Found by the run's name, which is about to change.
-      for (const std::string& known : results.sequences) {
-        if (column.find(known) == &values && names.contains(known)) {
-          sequence = names.at(known);
-          break;
-        }
-      }
+    for (OutsideRow& row : column.rows) {
+      if (names.contains(row.beside)) row.sequence = row.beside = names.at(row.beside);
     }
     rename(column.heading);
   }
@@ -194,6 +244,7 @@ void apply_display_names(const DisplayNames& names, RunResults& results,
     rename(swept.cell);
     rename(swept.of);
   }
+  for (ChangedMethod& changed : results.changed) rename(changed.name);
   for (std::string& missing : results.missing) {
     const std::size_t bar = missing.find(" / ");
     std::string sequence = missing.substr(0, bar), cell = missing.substr(bar + 3);

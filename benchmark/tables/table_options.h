@@ -23,16 +23,19 @@ enum class TableLayout {
 /// The column of times beside rates: the name by which users choose it, and its heading.
 inline constexpr const char* kTimeRate = "ms";
 inline constexpr const char* kTimeHeading = "ms per scan";
+/// The column of the most memory, by which rows may be sorted.
+inline constexpr const char* kMemoryColumn = "MiB";
 
 /// How tables of rates are to look.
 struct TableOptions {
+  std::vector<std::string> what = {};  ///< Of `table_kinds`; empty: all.
   TableLayout layout = TableLayout::kMethodRows;
   std::vector<std::string> rates = {};  ///< In this order, also kTimeRate; empty: the main ones.
   std::optional<int> decimals = {};  ///< Of every rate; nothing: as many as the rate's spec says.
   std::map<std::string, int> decimals_of = {};  ///< Of one rate; overrides `decimals`.
-  std::string sort = "none";                    ///< A rate, kTimeRate, "name" or "none".
+  std::string sort = "none";   ///< A rate, kTimeRate, kMemoryColumn, "name" or "none".
   bool disagreements = false;  ///< Whether each pair that protocols rank otherwise is named.
-  std::vector<OutsideColumn> outside = {};  ///< Set beside the run where a sequence is in both.
+  std::vector<OutsideColumn> outside = {};  ///< Set beside the run, see `set_beside`.
 };
 
 /// A rate as the options want it: "98.123".
@@ -63,6 +66,18 @@ bool shows_time(const TableOptions& options);
 
 /// @throws UsageError if the run has no such rate, or sorting by it makes no sense
 void check_rates(const TableOptions& options, const RunResults& results);
+
+/// The methods, best first by their mean over these sequences, as displayed, of what
+/// `TableOptions::sort` names. Those without a value come last.
+std::vector<std::string> methods_sorted_by(const RunResults& results,
+                                           const std::vector<std::string>& sequences,
+                                           const std::string& column);
+
+/// The same over all sequences by the main rate of the first protocol.
+std::vector<std::string> methods_best_first(const RunResults& results);
+
+/// Puts all that is listed by method into that order, the cells within each sequence.
+void sort_results(const std::string& column, RunResults& results);
 
 /// Reads "2" or "F1=3" into the options. @throws UsageError
 void parse_decimals(const std::string& text, TableOptions& options);

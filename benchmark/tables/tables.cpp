@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/tables/tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
 
 #include "core/text.h"
 #include "core/utf8.h"
@@ -23,8 +26,8 @@ std::string last_line(std::string text) {
   return printable_text(text);
 }
 
-/// What became of the cells that have no result.
-TextTable failure_table(const RunResults& results) {
+/// What became of the cells that have no result; none if all have one.
+std::vector<TextTable> failure_tables(const RunResults& results) {
   TextTable table{
       "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}};
   for (const Cell& cell : results.cells) {
@@ -36,12 +39,12 @@ TextTable failure_table(const RunResults& results) {
   for (const std::string& cell : results.missing) {
     table.rows.push_back({cell, {{"not run"}, {""}, {""}}});
   }
-  return table;
+  return table.rows.empty() ? std::vector<TextTable>() : std::vector{table};
 }
 
 std::string side_by_side_note(int cells) {
   return "Up to " + std::to_string(cells) +
-         " cells ran at once (--jobs), each with one thread: each is slower than alone.";
+         " cells ran at once, each with one thread: each is slower than alone.";
 }
 
 /// Time and memory of every method, the least marked.
@@ -98,29 +101,104 @@ TextTable stage_table(const MethodTimes& times) {
   return table;
 }
 
+std::vector<TextTable> stage_tables(const RunResults& results) {
+  std::vector<TextTable> tables;
+  for (const MethodTimes& times : results.times) {
+    if (!results.is_swept(times.cell)) tables.push_back(stage_table(times));
+  }
+  return tables;
+}
+
+using MakeTables = std::vector<TextTable>(const RunResults&, const TableOptions&);
+
+/// What tables can be about, in the order in which they are shown.
+const std::vector<std::pair<std::string, std::function<MakeTables>>>& kinds_of_tables() {
+  const auto by_protocol = [](auto& make) -> std::function<MakeTables> {
+    return [&make](const RunResults& results, const TableOptions& options) {
+      std::vector<TextTable> tables;
+      for (const std::string& protocol : results.protocols) {
+        for (TextTable& table : make(results, protocol, options)) tables.push_back(table);
+      }
+      return tables;
+    };
+  };
+  const auto without_options = [](auto& make) -> std::function<MakeTables> {
+    return [&make](const RunResults& results, const TableOptions&) { return make(results); };
+  };
+  static const std::vector<std::pair<std::string, std::function<MakeTables>>> kinds = {
+      {"accuracy", by_protocol(accuracy_tables)},
+      {"sweeps", sweep_tables},
+      {"published", published_tables},
+      {"ranking", ranking_tables},
+      {"points", without_options(compact_column_tables)},
+      {"confidence", without_options(reliability_tables)},
+      {"controls", by_protocol(control_tables)},
+      {"failures", without_options(failure_tables)},
+      {"times", without_options(cost_tables)},
+      {"stages", without_options(stage_tables)}};
+  return kinds;
+}
+
+/// "05 (frames 2350 to 2670, stride 2, 161 scans, range 0 to 60 m)" for each sequence.
+std::string data_words(const RunResults& results) {
+  std::vector<std::string> sequences;
+  for (const std::string& sequence : results.sequences) {
+    const DataRecord* data = results.data_of(sequence);
+    if (data == nullptr) continue;
+    const std::vector<std::string_view> frames = split(data->frames, ':');
+    const bool numbered = frames.size() == 3;
+    const bool limited = data->range_m.max < RangeLimits{}.max;
+    sequences.push_back(fmt::format(
+        "{} ({}{}, range {} m to {})", sequence,
+        numbered ? fmt::format("frames {} to {}, stride {}, ", frames[0], frames[1], frames[2])
+                 : "",
+        counted_text(data->scans, "scan"), number_text(data->range_m.min),
+        limited ? number_text(data->range_m.max) + " m" : "any"));
+  }
+  return sequences.empty() ? "" : "On " + join(sequences) + ".";
+}
+
+/// Whether the table has rows or columns of this method, or is about it.
+bool shows(const TextTable& table, const std::string& method) {
+  return std::ranges::any_of(table.rows, [&](const auto& row) { return row.label == method; }) ||
+         std::ranges::any_of(table.groups,
+                             [&](const TableGroup& group) {
+                               return group.heading == method || is_among(group.columns, method);
+                             }) ||
+         (table.title + " ").find(" " + method + " ") != std::string::npos;
+}
+
 }  // namespace
+
+std::vector<std::string> table_kinds() {
+  std::vector<std::string> names;
+  for (const auto& [name, make] : kinds_of_tables()) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> latex_kinds(const RunResults& results) {
+  const bool only_swept = std::ranges::all_of(results.methods, [&](const std::string& method) {
+    return results.is_swept(method) || results.is_control(method);
+  });
+  return {only_swept && !results.sweeps.empty() ? "sweeps" : "accuracy"};
+}
+
+void add_change_notes(const RunResults& results, TextTable& table) {
+  for (const ChangedMethod& changed : results.changed) {
+    if (shows(table, changed.name)) table.notes.push_back(changed.note());
+  }
+}
 
 std::vector<TextTable> make_tables(const RunResults& results, const TableOptions& options) {
   std::vector<TextTable> tables;
-  const auto append = [&tables](std::vector<TextTable> more) {
-    for (TextTable& table : more) tables.push_back(std::move(table));
-  };
-  for (const std::string& protocol : results.protocols) {
-    append(accuracy_tables(results, protocol, options));
-  }
-  append(sweep_tables(results, options));
-  append(published_tables(results, options));
-  append(ranking_tables(results, options));
-  append(compact_column_tables(results));
-  append(reliability_tables(results));
-  for (const std::string& protocol : results.protocols) {
-    append(control_tables(results, protocol, options));
-  }
-  TextTable failures = failure_table(results);
-  if (!failures.rows.empty()) tables.push_back(std::move(failures));
-  append(cost_tables(results));
-  for (const MethodTimes& times : results.times) {
-    if (!results.is_swept(times.cell)) tables.push_back(stage_table(times));
+  const std::string data = data_words(results);
+  for (const auto& [kind, make] : kinds_of_tables()) {
+    if (!options.what.empty() && !is_among(options.what, kind)) continue;
+    for (TextTable& table : make(results, options)) {
+      if (kind != "published") table.data = data;
+      add_change_notes(results, table);
+      tables.push_back(std::move(table));
+    }
   }
   return tables;
 }

@@ -16,6 +16,15 @@ namespace raymoval {
 /// Table 3).
 std::vector<TextTable> make_tables(const RunResults& results, const TableOptions& options = {});
 
+/// What `TableOptions::what` may name: "accuracy", "sweeps", ... in the order of the tables.
+std::vector<std::string> table_kinds();
+/// What a document is given unless it asks for more: the accuracy, or the sweeps if there are no
+/// other methods.
+std::vector<std::string> latex_kinds(const RunResults& results);
+
+/// Says below a table how the methods in it differ from their variants.
+void add_change_notes(const RunResults& results, TextTable& table);
+
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables);
 std::string tables_latex(const std::vector<TextTable>& tables);
 
@@ -31,10 +40,6 @@ std::vector<TextTable> control_tables(const RunResults& results, const std::stri
 
 /// All numbers of the papers that have a sequence of the run, by the protocols of the run.
 std::vector<TextTable> published_tables(const RunResults& results, const TableOptions& options);
-
-/// Sequences of the run for which no outside column has rates by a protocol of the run.
-std::vector<std::string> unpublished_sequences(const RunResults& results,
-                                               const std::vector<OutsideColumn>& outside);
 
 /// What the methods that were asked said of points against what came true: a row for each bin of
 /// confidence, a table for each method. None without any.

@@ -19,6 +19,22 @@ const ComparedCell* find_cell(const ResultSet& set, const ComparedCell& wanted) 
   return nullptr;
 }
 
+/// The cell of the run that goes with one of the reference: the cell of its name, else the same
+/// method with a parameter changed, whose name has a '*' more or less.
+const ComparedCell* partner_of(const ResultSet& run, const ResultSet& reference,
+                               const ComparedCell& wanted) {
+  if (const ComparedCell* same = find_cell(run, wanted)) return same;
+  const auto plain = [](std::string name) {
+    std::erase(name, '*');
+    return name;
+  };
+  for (const ComparedCell& cell : run.cells) {
+    const bool alike = cell.sequence == wanted.sequence && plain(cell.name) == plain(wanted.name);
+    if (alike && find_cell(reference, cell) == nullptr) return &cell;
+  }
+  return nullptr;
+}
+
 const ComparedScore* find_score(const ComparedCell& cell, const std::string& protocol) {
   for (const ComparedScore& score : cell.scores) {
     if (score.protocol == protocol) return &score;
@@ -70,8 +86,10 @@ class Comparer {
       add_line(Change::kIncomparable, {}, "the reference is unsound: " + problem);
     }
     for (const std::string& problem : run.control_problems) add_line(Change::kWorse, {}, problem);
+    std::set<const ComparedCell*> partners;
     for (const ComparedCell& cell : reference.cells) {
-      const ComparedCell* found = find_cell(run, cell);
+      const ComparedCell* found = partner_of(run, reference, cell);
+      partners.insert(found);
       if (found == nullptr) {
         add_cell_line(Change::kIncomparable, cell, cell, "missing in the run");
       } else {
@@ -79,7 +97,7 @@ class Comparer {
       }
     }
     for (const ComparedCell& cell : run.cells) {
-      if (find_cell(reference, cell) != nullptr) continue;
+      if (partners.contains(&cell)) continue;
       add_cell_line(Change::kMoved, cell, cell, "not in the reference, not compared");
     }
     if (!not_alike_.empty()) result_.times.push_back("not compared: " + not_alike_);

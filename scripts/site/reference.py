@@ -45,18 +45,17 @@ def command_section(name, text):
     """A command's help: its sentence, its usage, a table of its options, its examples and its notes."""
     lines = text.rstrip().split("\n")
     made = [f"## raymoval {name}", "", escaped(lines[0]), ""]
-    blocks = {"Positionals:": "argument", "Options:": "option"}
     i = 1
     while i < len(lines):
         line = lines[i]
         i += 1
         if line.startswith("Usage:"):
             made += ["```text", line.removeprefix("Usage:").strip(), "```", ""]
-        elif line in blocks:
+        elif line == "Positionals:" or line.lower().endswith("options:"):
             begin = i
             while i < len(lines) and lines[i].startswith("  "):
                 i += 1
-            made += option_table(blocks[line], lines[begin:i])
+            made += option_table("argument" if line == "Positionals:" else line[:-1].lower(), lines[begin:i])
         elif line == "Examples:":
             begin = i
             while i < len(lines) and lines[i].startswith("  "):

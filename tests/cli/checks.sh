@@ -44,6 +44,23 @@ left_over() {
   done
 }
 
+# make_drive FOLDER FIRST LAST STRIDE: a small sequence with these frames, in SemanticKITTI's layout.
+make_drive() {
+  python3 - "$@" <<'PY'
+import pathlib, struct, sys
+folder, row = pathlib.Path(sys.argv[1]), "1 0 0 0 0 1 0 0 0 0 1 0\n"
+first, last, stride = map(int, sys.argv[2:])
+for kind in ("velodyne", "labels"):
+    (folder / kind).mkdir(parents=True)
+(folder / "poses.txt").write_text(row * (last + 1))
+(folder / "calib.txt").write_text("Tr: " + row)
+for frame in range(first, last + 1, stride):
+    points = [(5 + i, 3, 0, 0) for i in range(20)] + [(5 + frame % 7, -3, 0, 0)]
+    (folder / f"velodyne/{frame:06d}.bin").write_bytes(b"".join(struct.pack("<4f", *p) for p in points))
+    (folder / f"labels/{frame:06d}.label").write_bytes(struct.pack("<21I", *[50] * 20, 252))
+PY
+}
+
 # suite_anywhere NAME: prints the path of a copy of a shipped suite that a build without PCL takes, too.
 suite_anywhere() {
   sed 's/"octomap:ground", *//' "$shipped_suites/$1.json" >"$work/$1.json"

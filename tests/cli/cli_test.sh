@@ -95,7 +95,7 @@ expect 0 "All controls are as they must be" run "${short[@]}" --method raymoval:
 for file in run.json results.json results.csv table.md table.tex; do
   holds "the run has $file" test -s run/$file
 done
-cell=run/cells/street/raymoval-online
+cell=run/cells/street/raymoval-online_
 holds "the cell is there" test -s $cell/cell.json
 holds "the setting is recorded" grep -q '"tau0": 0.2' $cell/cell.json
 holds "the build says its commit" grep -qE '"commit": "([0-9a-f]{40}|unknown)"' run/run.json
@@ -110,21 +110,59 @@ holds "a cell that is there is not run again" cmp before.json $cell/cell.json
 for format in md csv tex json; do expect 0 "raymoval" table run --format $format; done
 "$raymoval" table run --format csv >again.csv
 holds "the table prints what the run wrote" cmp again.csv run/results.csv
-expect 0 "no paper has numbers for street by erasor" table run --with-published
-cp out.txt told.txt
-holds "nothing of papers stands beside other sequences" test -z "$(grep -i '(published)' told.txt)"
+expect 2 "street: no paper has numbers for it by erasor" table run --with-published
+holds "nothing of papers stands beside other sequences" test ! -s out.txt
 expect 2 "'md'" table run --format mdx
 expect 2 "--with-published" table run --format csv --with-published
-expect 0 "| raymoval:online " table run --rates F1,PR --decimals 1 --sort F1
+expect 0 "| raymoval:online\\* " table run --rates F1,PR --decimals 1 --sort F1
 cp out.txt told.txt
 holds "the rates are in the order asked for" grep -qE '^\| method +\| +F1 \| +PR \|$' told.txt
-expect 0 "| Mine " table run --names 'raymoval:online=Mine' --only 'street/raymoval*'
+expect 0 "| Mine " table run --names 'raymoval:online*=Mine' --only 'street/raymoval*'
 cp out.txt told.txt
 holds "what was not chosen is left out" test -z "$(grep noop told.txt)"
 expect 0 "| sequence " table run --layout paper
 expect 2 "'paper'" table run --layout papper
-expect 2 "--sort goes with" table run --format csv --sort F1
+expect 2 "--sort go with" table run --format json --sort F1
 expect 2 "fits no cell of this run" table run --only nothing
+
+# A changed parameter is marked wherever the row stands, and may have a name.
+note="tau0 = 0.2 (default 0.3)"
+expect 0 "raymoval:online\\*: $note" table run
+expect 0 "raymoval:online*: $note" table run --format tex
+expect 0 ",raymoval:online*" table run --format csv
+expect 0 "" picture run -o changed.svg --kind stages
+holds "a chart has the note" grep -qF "raymoval:online*: $note</text>" changed.svg
+expect 0 "named: $note" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.2 --as named --out named
+holds "a name of --as is that of the cell" test -s named/cells/street/named/cell.json
+expect 0 "raymoval:online*: $note" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.2 --out named
+expect 0 "raymoval:online " run "${short[@]}" --method raymoval:online --out named
+holds "all stand beside the default" test "$(grep -cE ',(named|raymoval:online\*?)$' named/results.csv)" -eq 3
+expect 2 "--as x: names one method" run "${short[@]}" --method noop --method raymoval --as x --out o
+expect 2 "--as cannot be given together with the suite" run quick --as x --out o
+holds "options stand in groups" grep -qx "Method options:" <("$raymoval" help run)
+
+# LaTeX is the accuracy alone unless more is asked for.
+"$raymoval" table run --format tex >run.tex
+holds "one table" test "$(grep -c 'begin{table' run.tex)" -eq 1
+holds "its caption names the frames" grep -qF 'On street (frames 0 to 2, stride 1, 3 scans, range 0 m to any)' run.tex
+holds "it has a label" grep -qF '\label{tab:accuracy-by-protocol-erasor}' run.tex
+expect 0 "Time of raymoval:online*" table run --format tex --what times,stages
+expect 2 "'stages'" table run --what stage
+expect 2 "has no such table" table run --what confidence
+"$raymoval" table named --format csv --sort ms >sorted.csv
+holds "a CSV is sorted, too" sort -c -t, -g -k16,16 <(grep -E 'named|online' sorted.csv)
+
+# Papers' rows stand beside the same frames only, whatever the sequence is called.
+make_drive ten/05 0 9 1
+make_drive segment/05 2350 2670 2
+for drive in ten segment; do expect 0 "" run $drive/05 --method raymoval:online --quiet --out $drive.run; done
+expect 2 "05: the papers have frames 2350:2670:2 (161 scans), and this run has 0:9:1 (10 scans)" \
+  table ten.run --with-published
+expect 0 "| ERASOR (published) " table segment.run --with-published
+for drive in ten segment; do expect 0 "" report $drive.run --quiet --no-points -o $drive.html; done
+holds "nor in a report" test -z "$(grep -l '(published)' ten.html)"
+holds "a report has those of the same frames" grep -q '(published)' segment.html
+holds "a report has BibTeX to copy" grep -q 'lim2021erasor' ten.html
 
 # Options of a protocol from the command line; frame = erasor needs a camera's calibration.
 expect 0 "All controls are as they must be" run "${short[@]}" --method noop --protocol dynamicmap \

@@ -69,7 +69,7 @@ fi
 # Children see data by the options that the run was given.
 expect 0 "All controls are as they must be" run --sequence street --frames 1:5:2 --range 3:40 \
   --name short --method comb --set comb.milliseconds=0.5 --keep-removals --quiet --out options
-holds "removals are kept" test -s options/cells/short/comb-default/removals/000005.label
+holds "removals are kept" test -s options/cells/short/comb-default_/removals/000005.label
 expect 0 "All controls are as they must be" run --sequence street --frames 1:5:2 --range 3:40 \
   --name short --method comb --set comb.milliseconds=0.5 --keep-removals --quiet --in-process \
   --out inside

@@ -67,7 +67,7 @@ stale() {
 cp suite.json changed.json
 stale 0
 sed 's/"milliseconds": 5/"milliseconds": 6/' suite.json >changed.json
-stale 2 "run   a / comb2:default: parameter milliseconds was 5.0, is 6.0" "keep  a / comb:default"
+stale 2 "run   a / comb2:default*: parameter milliseconds was 5.0, is 6.0" "keep  a / comb:default"
 sed 's/"4:6"/"4:5"/' suite.json >changed.json
 stale 5 "run   b / oracle:default: data frames" "keep  a / oracle:default"
 sed 's/"erasor"/{"protocol": "erasor", "set": {"voxel_size": 0.3}}/' suite.json >changed.json
@@ -88,8 +88,8 @@ head -c 700 whole/$cell >hurt/$cell
 head -c 700 whole/results.json >hurt/results.json
 expect 0 "1 of 10 cells are to be run" "${run[@]}" --explain --out hurt
 expect 2 "not a whole result file" table hurt
-truncate -s -4 hurt/cells/b/comb2-default/removals/000005.label
-expect 0 "run   b / comb2:default: its removals" "${run[@]}" --explain --out hurt
+truncate -s -4 hurt/cells/b/comb2-default_/removals/000005.label
+expect 0 "run   b / comb2:default*: its removals" "${run[@]}" --explain --out hurt
 expect 0 "" "${run[@]}" --out hurt
 holds "a run mends what was hurt" same_but_times whole hurt
 expect 0 "10 of 10 cells are to be run" "${run[@]}" --explain --out nowhere

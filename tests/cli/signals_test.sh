@@ -79,7 +79,7 @@ done
 
 # A second signal does not wait for anybody: here a method that never looks whether it shall end.
 begin run --sequence street --frames 0:9 "${slow[@]}" --only '*/comb*' --in-process --out alone
-wait_for_name alone/cells/street/comb-default
+wait_for_name alone/cells/street/comb-default_
 kill -TERM $process
 sleep 1  # Of two signals that come at once the first number would count.
 holds "the first signal is noted" kill -0 $process
@@ -94,7 +94,7 @@ begin "${run[@]}"
 wait_for_child
 kill -TERM "$child" $process
 ends 143 "a run whose child was ended, too"
-holds "no cell has failed" test ! -e run/cells/street/comb-default/cell.json
+holds "no cell has failed" test ! -e run/cells/street/comb-default_/cell.json
 begin "${clean[@]}"
 wait_for_name 'map.pcd.*.part'
 kill -TERM "$(child_of $process)" $process

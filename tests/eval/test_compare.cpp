@@ -180,6 +180,17 @@ TEST_CASE("A cell that is missing is not comparable, one that is new is only tol
   CHECK(compare_results(one, none, {}).verdict() == ExitCode::kCannotDo);
 }
 
+TEST_CASE(
+    "A cell with a changed parameter is compared with that of its variant if it has no other") {
+  const ComparedCell changed = cell_with(980, 20, "m:v*");
+  CHECK(compared(changed, kReference).verdict() == ExitCode::kWorse);
+  CHECK(compared(kReference, changed).verdict() == ExitCode::kDone);
+  const Comparison both =
+      compare_results({{changed, kReference}, {}}, {{kReference}, {}}, ComparisonOptions{});
+  CHECK(both.verdict() == ExitCode::kDone);
+  CHECK_THAT(both.moved.at(0), Contains("m:v*: not in the reference"));
+}
+
 TEST_CASE("What is not comparable outweighs what is worse, and both are told") {
   const ResultSet reference{{kReference, cell_with(500, 100, "other:v")}, {}};
   const Comparison result = compare_results({{cell_with(980, 20)}, {}}, reference, {});

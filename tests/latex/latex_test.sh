@@ -50,7 +50,12 @@ holds "the run made its table" test -s run/table.tex
 holds "the failed cell is in it" grep -q 'fails' run/table.tex
 cp run/table.tex run.tex
 compiles run.tex
-"$raymoval" table run --with-published --format tex >published.tex
+"$raymoval" table run --format tex --what all >all.tex
+compiles all.tex
+make_drive 05 2350 2670 2
+"$raymoval" run 05 --method raymoval:online --quiet --out segment >out.txt 2>err.txt
+"$raymoval" table segment --with-published --format tex --what accuracy,published >published.tex
+holds "papers' rows are in it" grep -qF '(published)' published.tex
 compiles published.tex
 "$raymoval" table run --columns --format tex >columns.tex
 compiles columns.tex

@@ -118,7 +118,8 @@ fi
 holds "it runs" "${clean[@]}" "$raymoval" run --sequence street --frames 0:5 --quiet \
   --method raymoval:online --out run
 holds "it scores" grep -q '^street,raymoval,online,erasor,ok,' run/results.csv
-holds "it has the published tables" "${clean[@]}" "$raymoval" table run --with-published
+"${clean[@]}" "$raymoval" table run --with-published >published.txt 2>&1
+holds "it has the published tables" grep -q "no paper has numbers for it by erasor" published.txt
 holds "it cleans a map" "${clean[@]}" "$raymoval" clean street --frames 0:5 --quiet -o map.pcd
 
 if [[ -d python3-raymoval ]]; then

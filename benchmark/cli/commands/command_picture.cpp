@@ -123,12 +123,18 @@ Canvas drawn(const PictureFlags& flags, Progress& progress) {
   return overview_picture(run, chosen_cell(flags, run), overview, context);
 }
 
+/// A chart that says below it how methods differ from their variants.
+Chart noted(Chart chart, const RunResults& results) {
+  for (const ChangedMethod& changed : results.changed) chart.add_note(changed.note());
+  return chart;
+}
+
 /// The chart that was asked for, of a run that has what it shows.
 Chart charted(const PictureFlags& flags) {
   const RunResults results = KeptRun(flags.run, "").results();
   if (flags.kind == "stages") {
     Chart drawing = stage_chart(results);
-    if (!drawing.empty()) return drawing;
+    if (!drawing.empty()) return noted(std::move(drawing), results);
     throw DataError(flags.run + ": no method has times; none finished a cell.");
   }
   RunResults checked = results;
@@ -138,7 +144,7 @@ Chart charted(const PictureFlags& flags) {
                                              : accuracy_time_chart;
   for (const std::string& protocol : checked.protocols) {
     Chart drawing = chart(results, protocol);
-    if (!drawing.empty()) return drawing;
+    if (!drawing.empty()) return noted(std::move(drawing), results);
   }
   throw DataError(flags.run + ": no method has what --kind " + flags.kind +
                   " shows; see `raymoval table " + flags.run + "`.");

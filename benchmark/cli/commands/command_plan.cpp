@@ -56,6 +56,7 @@ Command add_plan_command(CommandParser& program) {
   CommandOptions options =
       program.add_command("plan", "Prints a line of JSON for each cell of a suite");
   flags->what.add_to(options);
+  options.group("Other options");
   options.add("--out", "DIR", flags->out,
               "The run folder: also say which cells have to be run, and why. A folder that a run "
               "would refuse is refused here, too");

@@ -44,8 +44,10 @@ bool with_points(const ReportFlags& flags) {
 }
 
 /// The papers' rows. If they are not shipped, the report is made without them.
-std::vector<OutsideColumn> papers() {
-  return if_whole(published_columns).value_or(std::vector<OutsideColumn>());
+std::vector<OutsideColumn> papers(const RunResults& results) {
+  auto columns = if_whole(published_columns).value_or(std::vector<OutsideColumn>());
+  set_beside(columns, results);
+  return columns;
 }
 
 std::string size_text(std::size_t bytes) {
@@ -74,7 +76,7 @@ ExitCode report(const ReportFlags& flags) {
   const std::filesystem::path results = find_results(flags.run);
   const KeptRun run(flags.run, flags.data, flags.simulate);
   request.run = &run;
-  request.published = papers();
+  request.published = papers(run.results());
   std::optional<Comparison> comparison;
   if (!flags.against.empty()) {
     comparison =

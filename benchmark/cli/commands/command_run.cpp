@@ -140,9 +140,9 @@ ExitCode run(const RunFlags& flags) {
   return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
 }
 
-void add_options(CommandOptions& options, RunFlags& flags) {
-  flags.what.add_to(options);
-  options.add("--out", "DIR", flags.out, "The folder for the results");
+/// What a run does with its cells, and which ones it runs.
+void add_cell_options(CommandOptions& options, RunFlags& flags) {
+  options.group("Cell options");
   options.add(
       "--only", "PATTERN", flags.options.selection.only,
       "Run only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?)");
@@ -151,24 +151,32 @@ void add_options(CommandOptions& options, RunFlags& flags) {
   options.add(
       "--cell", "CELL", flags.cell,
       "Run one cell, given by its key (see `raymoval plan`) or as SEQUENCE/NAME; make no tables");
-  options.add("--jobs", "N", flags.jobs,
-              "Run N cells at once, each with one thread, to be done sooner (default: 1). Their "
-              "times are marked, since each is slower than alone");
   options.add_flag("--collect", flags.options.collect,
                    "Run nothing; make the tables of the cells that are there");
   options.add_flag(
       "--explain", flags.explain,
       "Run no method; say which cells would be run, and why. Scenes that are not in the "
       "cache are simulated for it");
+}
+
+void add_options(CommandOptions& options, RunFlags& flags) {
+  flags.what.add_to(options);
+  options.add("--jobs", "N", flags.jobs,
+              "Run N cells at once, each with one thread, to be done sooner (default: 1). Their "
+              "times are marked, since each is slower than alone");
+  add_cell_options(options, flags);
+  options.group("Result options");
+  options.add("--out", "DIR", flags.out, "The folder for the results");
   options.add_flag("--keep-removals", flags.options.keep_removals,
                    "Keep what each method removed from each scan");
   options.add_flag("--confidence", flags.options.confidence,
                    "Ask the methods that can tell how sure they are of each point, and count what "
                    "comes true (see `raymoval describe METHOD`)");
-  options.add_flag("--in-process", flags.in_process,
-                   "Run methods in this process, for a debugger; a crash then ends the whole run");
   options.add_flag("--overwrite", flags.options.overwrite,
                    "Replace the folder's results if they are of another suite or on other data");
+  options.group("Other options");
+  options.add_flag("--in-process", flags.in_process,
+                   "Run methods in this process, for a debugger; a crash then ends the whole run");
   options.add_flag("--quiet", flags.quiet, "Show no progress");
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 struct TableFlags {
   std::string run, format = "md", layout = "methods";
-  std::vector<std::string> protocols, only, rates, decimals, names;
+  std::vector<std::string> what, protocols, only, rates, decimals, names;
   std::string sort;
   bool with_published = false;
   bool columns = false;
@@ -43,18 +43,36 @@ void check_flags(const TableFlags& flags) {
   } looks[] = {{"--with-published", flags.with_published}, {"--columns", flags.columns},
                {"--disagreements", flags.disagreements},   {"--layout", flags.layout != "methods"},
                {"--rates", !flags.rates.empty()},          {"--decimals", !flags.decimals.empty()},
-               {"--names", !flags.names.empty()},          {"--sort", !flags.sort.empty()}};
+               {"--names", !flags.names.empty()},          {"--what", !flags.what.empty()}};
   for (const auto& look : looks) {
     if (look.given && !is_text(flags)) {
       throw UsageError(std::string(look.option) + " goes with --format md or tex.");
     }
   }
-  if (flags.columns && flags.with_published) {
-    throw UsageError("--columns goes without --with-published.");
+  if (flags.columns && (flags.with_published || !flags.what.empty())) {
+    throw UsageError("--columns goes without --with-published and --what.");
   }
-  if (flags.format == "json" && !(flags.protocols.empty() && flags.only.empty())) {
-    throw UsageError("--protocol and --only go with --format md, csv or tex.");
+  if (flags.format == "json" &&
+      !(flags.protocols.empty() && flags.only.empty() && flags.sort.empty())) {
+    throw UsageError("--protocol, --only and --sort go with --format md, csv or tex.");
   }
+}
+
+/// The papers' rows. Says of which sequences none may stand beside the run's.
+/// @throws UsageError if there is no other sequence
+std::vector<OutsideColumn> papers_beside(const RunResults& results) {
+  std::vector<OutsideColumn> papers = published_columns();
+  const std::vector<std::string> reasons = set_beside(papers, results);
+  if (reasons.size() == results.sequences.size()) {
+    throw UsageError("--with-published: papers' rows stand beside the same frames only. " +
+                     join(reasons, ". ") +
+                     ". Leave the option out, or run the suite `semantickitti` or `kth`, which "
+                     "have the papers' frames.");
+  }
+  for (const std::string& reason : reasons) {
+    print_error("raymoval: --with-published: " + reason + ".");
+  }
+  return papers;
 }
 
 TableOptions options_of(const TableFlags& flags, const RunResults& results) {
@@ -64,29 +82,40 @@ TableOptions options_of(const TableFlags& flags, const RunResults& results) {
     for (const std::string_view rate : split(text, ',')) options.rates.emplace_back(rate);
   }
   for (const std::string& text : flags.decimals) parse_decimals(text, options);
+  std::vector<std::string> kinds = table_kinds();
+  kinds.emplace_back("all");
+  for (const std::string& text : flags.what) {
+    for (const std::string_view kind : split(text, ',')) {
+      options.what.emplace_back(kind);
+      check_word("--what", options.what.back(), kinds);
+    }
+  }
+  if (options.what.empty() && flags.format == "tex") options.what = latex_kinds(results);
+  if (is_among(options.what, "all")) options.what.clear();
   if (!flags.sort.empty()) options.sort = flags.sort;
   options.disagreements = flags.disagreements;
-  if (flags.with_published) options.outside = published_columns();
+  if (flags.with_published) options.outside = papers_beside(results);
   check_rates(options, results);
   return options;
 }
 
-/// Says which sequences no paper has numbers for: nothing stands beside those.
-void tell_unpublished(const RunResults& results, const std::vector<OutsideColumn>& outside) {
-  const std::vector<std::string> names = unpublished_sequences(results, outside);
-  if (names.empty()) return;
-  print_error("raymoval: --with-published: no paper has numbers for " + join(names) + " by " +
-              join(results.protocols, " or ") + ".");
-}
-
 std::string tables_text(const TableFlags& flags, RunResults& results) {
   TableOptions options = options_of(flags, results);
-  if (flags.with_published) tell_unpublished(results, options.outside);
+  sort_results(options.sort, results);
+  if (flags.format == "csv") return results_csv(results);
   DisplayNames names;
   for (const std::string& text : flags.names) parse_display_names(text, results, names);
   apply_display_names(names, results, options.outside);
-  const std::vector<TextTable> tables =
+  std::vector<TextTable> tables =
       flags.columns ? full_column_tables(results) : make_tables(results, options);
+  if (tables.empty() && !flags.what.empty()) {
+    throw UsageError(
+        "--what " + join(flags.what, ",") +
+        ": this run has no such table. `--what published` goes with --with-published.");
+  }
+  if (flags.columns) {
+    for (TextTable& table : tables) add_change_notes(results, table);
+  }
   return flags.format == "md" ? tables_markdown(results, tables) : tables_latex(tables);
 }
 
@@ -101,7 +130,7 @@ ExitCode show(const TableFlags& flags) {
   choose_cells(record, flags.only);
   RunResults results = shown_results(record);
   choose_protocols(results, flags.protocols);
-  print(flags.format == "csv" ? results_csv(results) : tables_text(flags, results));
+  print(tables_text(flags, results));
   return ExitCode::kDone;
 }
 
@@ -117,9 +146,10 @@ void add_look_options(CommandOptions& options, TableFlags& flags) {
   options.add("--names", "NAMES", flags.names,
               "The name of a method or sequence in the tables: 'NAME=SHOWN', or a file with "
               "such lines");
-  options.add("--sort", "RATE", flags.sort,
-              "Put the best first by this rate or by ms, or sort by name, or none (default): as in "
-              "the run");
+  options.add(
+      "--sort", "COLUMN", flags.sort,
+      "Put the best first in every table by this rate, by ms or by MiB, or sort by name, or "
+      "none (default): as in the run");
   options.add_flag(
       "--disagreements", flags.disagreements,
       "Also show the ranks on each sequence, and the pairs of methods that protocols rank "
@@ -133,6 +163,9 @@ Command add_table_command(CommandParser& program) {
   CommandOptions options = program.add_command("table", "Prints the tables of a run");
   options.add("run", "RUN", flags->run, "The run folder");
   options.add("--format", "FORMAT", flags->format, "md (default), csv, tex or json");
+  options.add("--what", "KIND", flags->what,
+              "Show only these tables: " + join(table_kinds()) +
+                  ", or all (default: all; accuracy with --format tex)");
   options.add("--protocol", "NAME", flags->protocols, "Show only this protocol (default: all)");
   options.add(
       "--only", "PATTERN", flags->only,
@@ -142,7 +175,7 @@ Command add_table_command(CommandParser& program) {
       "--columns", flags->columns,
       "Show points by class, range and height, and intervals, in place of the usual tables");
   options.add_flag("--with-published", flags->with_published,
-                   "Show the papers' rows beside those of sequences that the papers have");
+                   "Show the papers' rows beside those of the same frames of the same sequence");
   options.set_footer(
       "Examples:\n"
       "  raymoval table out/street\n"
@@ -150,6 +183,7 @@ Command add_table_command(CommandParser& program) {
       "  raymoval table out/street --protocol dynamicmap\n"
       "  raymoval table out/street --only 'street/raymoval*' --rates PR,RR,F1 --sort F1\n"
       "  raymoval table out/kitti --with-published --format tex\n"
+      "  raymoval table out/street --format tex --what times,stages\n"
       "  raymoval table out/kitti --layout paper --decimals 3 --names 'raymoval:offline=Raymoval "
       "(ours)' --format tex");
   return {options.name(), [flags] { return show(*flags); }};

@@ -10,7 +10,7 @@ program=$1
 page() {
   "$program" help "$@" | awk '
     { gsub(/\\/, "\\e"); gsub(/-/, "\\-"); gsub(/`/, "\\(ga"); gsub(/\047/, "\\(aq"); gsub(/\^/, "\\(ha"); gsub(/~/, "\\(ti") }
-    /^(Positionals|Options|Subcommands):$/ { print ".PP"; print; list = 1; next }
+    /^(Positionals|Options|Subcommands|[A-Z][a-z]+ options):$/ { print ".PP"; print; list = 1; next }
     /^$/ { print ".PP"; list = 0; next }
     list && /^   / { sub(/^ +/, ""); print; next }
     list {

@@ -113,6 +113,11 @@ void Chart::set_size(double width, double height) {
   size_ = {std::max(width, text_width(title_) * 1.1 + 32.0), height};
 }
 
+void Chart::add_note(const std::string& line) {
+  text(16.0, size_.y + 4.0, line, "soft");
+  set_size(std::max(size_.x, text_width(line) + 32.0), size_.y + 20.0);
+}
+
 std::string Chart::svg(const std::string& style) const {
   if (empty()) return "";
   std::string svg = fmt::format(

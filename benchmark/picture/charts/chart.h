@@ -53,6 +53,8 @@ class Chart {
   void marker(const ChartPoint& at, const SeriesLook& look, const std::string& hint);
   /// @param width at least; it grows with the title
   void set_size(double width, double height);
+  /// Adds a line below the chart, after its size is set.
+  void add_note(const std::string& line);
 
   [[nodiscard]] bool empty() const { return elements_.empty(); }
   /// One <svg> element. Empty if there is no chart.

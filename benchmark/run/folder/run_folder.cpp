@@ -138,8 +138,11 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
   for (const MethodRequest& request : suite.methods) {
     run.methods.push_back({request.name, request.method.full_name(), request.method.entry->version,
                            request.method.configuration});
-    if (request.sweep.empty()) continue;
-    run.methods.back().sweep = SweepRecord{request.sweep_of, request.sweep};
+    SuiteMethodRecord& method = run.methods.back();
+    if (!request.sweep.empty()) method.sweep = SweepRecord{request.sweep_of, request.sweep};
+    if (Configuration changed = request.changed_from(); !changed.empty()) {
+      method.changed_from = std::move(changed);
+    }
   }
   for (const ProtocolRequest& request : suite.protocols) {
     run.protocols.push_back({request.name, request.protocol,
@@ -155,10 +158,10 @@ RunRecord run_record(const Suite& suite, const std::vector<Sequence>& sequences,
 
 void write_result_files(const path& out, const ResultsRecord& results) {
   const RunResults shown = shown_results(results);
-  const std::vector<TextTable> tables = make_tables(shown);
   write_atomically(out / "results.csv", results_csv(shown));
-  write_atomically(out / "table.md", tables_markdown(shown, tables));
-  write_atomically(out / "table.tex", tables_latex(tables));
+  write_atomically(out / "table.md", tables_markdown(shown, make_tables(shown)));
+  write_atomically(out / "table.tex",
+                   tables_latex(make_tables(shown, {.what = latex_kinds(shown)})));
   write_results(out / "results.json", results);
 }
 

@@ -65,6 +65,21 @@ std::string latex_escaped(const std::string& any_text) {
   return belongs ? "{}" + escaped : escaped;
 }
 
+/// "accuracy-by-protocol-erasor": what a \\label may hold of a title.
+std::string label_of(const std::string& title) {
+  std::string label;
+  for (const char c : title) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '*';
+    if (upper || plain) {
+      label += upper ? static_cast<char>(c - 'A' + 'a') : c;
+    } else if (!label.ends_with('-')) {
+      label += '-';
+    }
+  }
+  return label;
+}
+
 /// The same for a column that is broken into lines: words may also be broken behind these.
 std::string breakable(const std::string& text) {
   std::string broken;
@@ -251,7 +266,8 @@ class LatexTable {
     std::string text = "% needs \\usepackage{booktabs}\n\\begin{" + name + "}[htbp]\n\\centering\n";
     if (is_small_) text += "\\footnotesize\n\\setlength{\\tabcolsep}{3pt}\n";
     text += "\\caption{" + latex_escaped(table_.title) + (number > 0 ? " (continued)" : "") +
-            "}\n\\smallskip\n";
+            (table_.data.empty() ? "" : ". " + latex_escaped(table_.data)) + "}\n" +
+            (number > 0 ? "" : "\\label{tab:" + label_of(table_.title) + "}\n") + "\\smallskip\n";
     for (std::size_t i = 0; i < part.tabulars.size(); ++i) {
       text += (i == 0 ? "" : "\\par\\medskip\n") + tabular_text(part.tabulars[i]);
     }

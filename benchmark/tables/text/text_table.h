@@ -43,6 +43,7 @@ struct TextTable {
   std::vector<TableGroup> groups = {};
   std::vector<TableRow> rows = {};  ///< As many cells as all groups have columns.
   std::vector<std::string> notes = {};
+  std::string data = {};  ///< What it was measured on; stands in the caption of LaTeX.
 };
 
 /// Rows [first, end) of a table.
@@ -92,7 +93,9 @@ std::string to_markdown(const TextTable& table);
 /// (200 pt) is set smaller; what is then still too wide becomes a `table*`, which spans both
 /// columns. What does not fit the text of an article (345 pt) is cut into several tables, one below
 /// the other, and what is higher than a page into several floats; long texts are broken into lines.
-/// Characters beyond Latin-1, which LaTeX does not know by itself, become question marks.
+/// The caption has the title and the data, and the label is made of the title:
+/// "tab:accuracy-by-protocol-erasor". Characters beyond Latin-1, which LaTeX does not know by
+/// itself, become question marks.
 std::string to_latex(const TextTable& table);
 
 }  // namespace raymoval

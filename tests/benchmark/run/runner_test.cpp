@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/cell_json.h"
+#include "benchmark/result/results.h"
+#include "benchmark/result/run_record_json.h"
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/plan.h"
+#include "benchmark/tables/run_summary.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "methods/controls/controls.h"
@@ -308,18 +311,38 @@ TEST_CASE("Other data or protocols are refused where the folder has results of t
 TEST_CASE("A method with other parameters is run again, and no table mixes it with the old ones") {
   const test::TemporaryFolder folder;
   const auto& out = folder.path();
-  run_suite(two_scans_called("a", "good"), {.out = out});
+  Suite first = two_scans_called("a", "good");
+  apply_settings(first, {{"good", "size", "2"}});
+  run_suite(first, {.out = out});
   Suite changed = two_scans_called("b", "good");
-  apply_settings(changed, {{"good", "size", "2"}});
+  apply_settings(changed, {{"good", "size", "3"}});
   run_suite(changed, {.out = out});
-  CHECK(cells_in(out) == Names{"b/good:v"});
+  CHECK(cells_in(out) == Names{"b/good:v*"});
   const ordered_json missing = read_sealed(out / "results.json")["missing"];
-  CHECK(missing == ordered_json{"a / good:v"});
+  CHECK(missing == ordered_json{"a / good:v*"});
   CHECK_THAT(plan_suite(changed, {.out = out}).left_out.at(0),
-             Contains("a / good:v: parameter size was 1.0, is 2.0"));
+             Contains("a / good:v*: parameter size was 2.0, is 3.0"));
   changed.sequences[0].options.name = "a";
   run_suite(changed, {.out = out});
-  CHECK(cells_in(out) == Names{"a/good:v", "b/good:v"});
+  CHECK(cells_in(out) == Names{"a/good:v*", "b/good:v*"});
+}
+
+TEST_CASE("A method with a changed parameter stands beside its variant and says the difference") {
+  const test::TemporaryFolder folder;
+  const auto& out = folder.path();
+  run_suite(two_scans_called("a", "good"), {.out = out});
+  Suite changed = two_scans_called("a", "good");
+  apply_settings(changed, {{"good", "size", "2"}});
+  run_suite(changed, {.out = out});
+  CHECK(cells_in(out) == Names{"a/good:v", "a/good:v*"});
+  const RunResults results = shown_results(read_results(out / "results.json"));
+  REQUIRE(results.changed.size() == 1);
+  CHECK(results.changed[0].note() == "good:v*: size = 2.0 (default 1.0)");
+  CHECK_THAT(read_text(out / "table.md"),
+             Contains("| good:v\\* ") && Contains("good:v\\*: size = 2.0 (default 1.0)"));
+  CHECK_THAT(read_text(out / "table.tex"), Contains("good:v*: size = 2.0 (default 1.0)"));
+  CHECK_THAT(read_text(out / "results.csv"), Contains(",good:v*\n"));
+  CHECK_THAT(run_summary(results, "out"), Contains("good:v*: size = 2.0 (default 1.0)\n"));
 }
 
 TEST_CASE("Names that would share a folder, and a record that is damaged, are refused") {

@@ -188,7 +188,7 @@ TEST_CASE(
   const Suite suite = suite_of(
       R"({"sequences": ["street"], "methods": ["noop", {"method": "toy:all", "set": {"size": 4}}]})");
   REQUIRE(suite.methods.size() == 3);
-  CHECK(suite.methods[1].name == "toy:a");
+  CHECK(suite.methods[1].name == "toy:a*");
   CHECK(value(suite, 2, "size") == 4.0);
   CHECK_THROWS_WITH(
       suite_of(R"({"sequences": ["street"], "methods": [{"method": "toy:all", "as": "mine"}]})"),
@@ -196,6 +196,31 @@ TEST_CASE(
   Suite one;
   CHECK_THROWS_WITH(add_method(one, "toy:all", "", toy_methods()),
                     Contains("stands for 2 methods") && Contains("toy:a, toy:b"));
+}
+
+TEST_CASE("A variant with a changed parameter has a '*' behind its name") {
+  Suite suite = suite_with(
+      R"("toy:a", {"method": "toy:a", "set": {"size": 4}}, {"method": "toy:b", "set": {"gap": 3}},
+         {"method": "toy:b", "set": {"size": 4}, "as": "big"},
+         {"method": "toy:b", "set": {"size": {"sweep": [2]}, "gap": 5}})");
+  const auto names = [&] {
+    std::vector<std::string> list;
+    for (const MethodRequest& request : suite.methods) list.push_back(request.name);
+    return list;
+  };
+  // The gap of b is 3 by its variant; a name of "as" stays.
+  CHECK(names() == std::vector<std::string>{"toy:a", "toy:a*", "toy:b", "big", "toy:b*:size=2"});
+  CHECK(suite.methods[4].sweep_of == "toy:b*");
+  CHECK(suite.methods[4].changed_from() == Configuration{{"gap", 3.0}});
+  CHECK(suite.methods[3].changed_from() == Configuration{{"size", 1.0}});
+  CHECK(suite.methods[0].changed_from().empty());
+  CHECK_THROWS_WITH(apply_settings(suite, {{"toy:a", "size", "4"}}),
+                    Contains("two methods") && Contains("'toy:a*'"));
+  suite.methods.resize(1);
+  apply_settings(suite, {{"toy:a", "size", "4"}});
+  CHECK(names() == std::vector<std::string>{"toy:a*"});
+  apply_settings(suite, {{"toy:a", "size", "1"}});
+  CHECK(names() == std::vector<std::string>{"toy:a"});
 }
 
 TEST_CASE("A sweep is a cell for each value") {

@@ -44,6 +44,18 @@ TEST_CASE("LaTeX shows every character as it is") {
   CHECK_THAT(latex_of_label("\xC3\xA9\xE2\x86\x92z\x01"), Contains("\n\xC3\xA9?z  & 1"));
 }
 
+TEST_CASE("The caption has the title and the data, and one label is made of the title") {
+  TextTable table = wide_table(12);  // Cut into several floats.
+  table.title = "Accuracy by protocol a_b:2*";
+  table.data = "On 05 (10 scans).";
+  for (int i = 0; i < 100; ++i) table.rows.push_back(table.rows[0]);
+  const std::string latex = to_latex(table);
+  CHECK_THAT(latex, Contains("\\caption{Accuracy by protocol a\\_b:2*. On 05 (10 scans).}\n"
+                             "\\label{tab:accuracy-by-protocol-a-b-2*}\n"));
+  CHECK(count(latex, "\\caption{") > 1);
+  CHECK(count(latex, "\\label{") == 1);
+}
+
 TEST_CASE("A label cannot be taken for an option of the row before it") {
   CHECK_THAT(latex_of_label("[2] x"), Contains("\n{}[2] x & 1"));
   CHECK_THAT(latex_of_label("*"), Contains("\n{}* & 1"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/tables/tables.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "benchmark/tables/published_columns.h"
@@ -114,7 +115,7 @@ TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
   RunResults results = two_by_two();
   results.sequences[0] = results.cells[0].sequence = results.cells[2].sequence = "kitti-05";
   const OutsideColumn paper{
-      "paper", "erasor", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
+      "paper", "erasor", {{"05", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}, "kitti-05"}}};
   const std::vector<TextTable> tables = make_tables(results, with_papers({paper}));
   REQUIRE(tables.size() == 2);
   REQUIRE(tables[0].groups.size() == 3);
@@ -191,7 +192,7 @@ TEST_CASE("Published numbers of a protocol stand beside those of that protocol o
   add_points_protocol(results);
   results.sequences[0] = results.cells[0].sequence = results.cells[2].sequence = "kth-00";
   const OutsideColumn paper{"A", "erasor", {{"00", {{"PR", 88.0}, {"RR", 90.0}, {"F1", 0.89}}}}};
-  const OutsideColumn kth{"B", "dynamicmap", {{"00", {{"SA", 96.76}, {"DA", 90.68}}}}};
+  const OutsideColumn kth{"B", "dynamicmap", {{"00", {{"SA", 96.76}, {"DA", 90.68}}, "kth-00"}}};
   std::vector<TextTable> tables = make_tables(results, with_papers({paper, kth}));
   // "kth-00" is every frame, and no segment of the first protocol's papers.
   CHECK(tables[0].groups.size() == 2);
@@ -212,13 +213,95 @@ TEST_CASE("Published numbers of a protocol stand beside those of that protocol o
   CHECK(!tables[2].title.starts_with("Published"));
 }
 
+TEST_CASE("Papers' rows stand beside the same frames of a sequence only") {
+  RunResults results = two_by_two();
+  results.sequences = {"05"};
+  for (Cell& cell : results.cells) cell.sequence = "05";
+  const auto reasons = [&](const std::string& frames, std::size_t scans,
+                           const std::string& protocol = "erasor") {
+    results.cells[0].data = DataRecord{"05", "semantickitti", "", frames, scans};
+    results.protocols = {protocol};
+    std::vector<OutsideColumn> papers = published_columns();
+    const std::vector<std::string> lines = set_beside(papers, results);
+    const bool any = std::ranges::any_of(papers, [](const OutsideColumn& column) {
+      return column.find(&OutsideRow::beside, "05") != nullptr;
+    });
+    CHECK(any == lines.empty());
+    return lines.empty() ? "" : lines.at(0);
+  };
+  CHECK(reasons("2350:2670:2", 161).empty());
+  // Only the scans of the segment may be in the folder.
+  CHECK(reasons("2350:2670:1", 161).empty());
+  CHECK(reasons("2350:2670:1", 321, "dynamicmap").empty());
+  CHECK(reasons("0:9:1", 10) ==
+        "05: the papers have frames 2350:2670:2 (161 scans), and this run has 0:9:1 (10 scans)");
+  CHECK_THAT(reasons("2350:2670:1", 321), Contains("has 2350:2670:1 (321 scans)"));
+  CHECK_THAT(reasons("2350:2670:2", 160), Contains("(160 scans)"));
+  CHECK_THAT(reasons("2350:2670:2", 161, "mos"), Contains("no paper has numbers for it by mos"));
+  results.sequences[0] = "01";
+  for (Cell& cell : results.cells) cell.sequence = "01";
+  CHECK_THAT(reasons("150:250:1", 101, "dynamicmap"), Contains("papers used is not known"));
+  results.cells[0].data.reset();
+  std::vector<OutsideColumn> papers = published_columns();
+  results.protocols = {"erasor"};
+  CHECK_THAT(set_beside(papers, results).at(0), Contains("no cell has read its scans"));
+}
+
+TEST_CASE("Tables of the kinds that are asked for") {
+  RunResults results = two_by_two();
+  add_points_protocol(results);
+  const auto titles = [&](const std::vector<std::string>& what) {
+    std::vector<std::string> list;
+    for (const TextTable& table : make_tables(results, {.what = what})) list.push_back(table.title);
+    return list;
+  };
+  CHECK(titles({"ranking"}) == std::vector<std::string>{"Ranking by protocol"});
+  CHECK(titles({"accuracy"}).size() == 4);  // Of each protocol, and their means.
+  CHECK(titles({}).size() == 5);
+  CHECK(latex_kinds(results) == std::vector<std::string>{"accuracy"});
+  results.sweeps = {{"x", "m", {{"size", "1"}}}, {"y_1", "m", {{"size", "2"}}}};
+  CHECK(latex_kinds(results) == std::vector<std::string>{"sweeps"});
+}
+
+TEST_CASE("A sort puts the best first in all that is listed by method") {
+  RunResults results = two_by_two();
+  results.columns = {{"x", false, 2, {}}, {"y_1", false, 2, {}}};
+  results.times = {{"x", 10, 2.0, 0.0, {}}, {"y_1", 10, 1.0, 0.0, {}}};
+  const auto sorted = [&](const std::string& column) {
+    RunResults copy = results;
+    sort_results(column, copy);
+    CHECK(copy.columns.front().cell == copy.methods.front());
+    CHECK(copy.times.front().cell == copy.methods.front());
+    return copy;
+  };
+  // F1: 0.77 of x, 0.8 of y_1 on s1, where it is better too; on s2 it has none.
+  const RunResults by_f1 = sorted("F1");
+  CHECK(by_f1.methods == std::vector<std::string>{"y_1", "x"});
+  CHECK_THAT(results_csv(by_f1), Contains("\ns1,y_1,v,erasor,ok,80.000,80.000,0.8000,,,,,,,,,,y_1\n"
+                                          "s1,x,") &&
+                                     Contains("x\ns2,x,"));
+  CHECK(sorted("PR").methods == std::vector<std::string>{"x", "y_1"});
+  CHECK(sorted(kTimeRate).methods == std::vector<std::string>{"y_1", "x"});
+  CHECK(sorted("name").methods == std::vector<std::string>{"x", "y_1"});
+  CHECK(sorted("none").methods == results.methods);
+}
+
+TEST_CASE("Tables say below them how a method differs from its variant") {
+  RunResults results = two_by_two();
+  results.changed = {{"x", "size = 2 (default 1)"}};
+  const std::vector<TextTable> tables = make_tables(results);
+  CHECK(tables[0].notes.back() == "x: size = 2 (default 1)");
+  results.methods = {"y_1"};
+  CHECK(make_tables(results)[0].notes.empty());
+}
+
 TEST_CASE("Every published file that tables use is read") {
   std::size_t of_benchmark = 0, of_segmentation = 0;
   for (const OutsideColumn& column : published_columns()) {
     of_benchmark += column.protocol == "dynamicmap" ? 1 : 0;
     of_segmentation += column.protocol == "mos" ? 1 : 0;
-    for (std::size_t i = 0; i < column.sequences.size(); ++i) {
-      CHECK(column.find(column.sequences[i].first) == &column.sequences[i].second);
+    for (const OutsideRow& row : column.rows) {
+      CHECK(column.find(&OutsideRow::sequence, row.sequence) == &row.rates);
     }
   }
   // Six of the benchmark, six that DUFOMap and BeautyMap add, one that is claimed.

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/result/run_record.h"
+#include "methods/registry.h"
+
+namespace raymoval {
+
+/// BibTeX: this program, then what is added, each entry once. A method that is ours, or that has no
+/// publication, adds nothing or a comment.
+class Citations {
+ public:
+  /// @param methods lives as long as this object
+  explicit Citations(const MethodRegistry& methods);
+
+  void add_method(const MethodEntry& entry);
+  /// The methods and protocols of a run.
+  void add_run(const RunRecord& run);
+  void add(const std::string& entry);
+
+  /// The method with this name, with or without a variant; null if there is none.
+  [[nodiscard]] const MethodEntry* known_method(const std::string& full_name) const;
+  [[nodiscard]] std::string text() const;
+
+ private:
+  const MethodRegistry& methods_;
+  std::vector<std::string> entries_;
+};
+
+}  // namespace raymoval
