@@ -15,9 +15,9 @@ namespace raymoval {
 /// A named set of parameter values of a method.
 struct MethodVariant {
   std::string name;
-  std::string sentence;
-  bool online = false;       ///< Scan t is answered from scans 0 .. t, or up to its `delay` later.
-  Configuration overrides;   ///< Values that differ from the method's defaults.
+  std::string sentence = "";
+  bool online = false;  ///< Scan t is answered from scans 0 .. t, or up to its `delay` later.
+  Configuration overrides = {};  ///< Values that differ from the method's defaults.
   bool is_available = true;  ///< False if this build lacks a library for it, as `sentence` says.
 };
 
@@ -30,6 +30,9 @@ struct MethodEntry {
   std::string version = "1";       ///< It is raised whenever answers may change.
   std::vector<std::string> notes;  ///< Decisions and deviations from the source, a sentence each.
   std::vector<ParameterSpec> parameters;
+  /// The parameters that `raymoval describe` shows unless all are asked for; empty: all.
+  std::vector<std::string> main_parameters = {};
+  std::string advice = {};  ///< What to change if too much or too little is removed, as sentences.
   std::vector<MethodVariant> variants;  ///< The first is what the bare name means.
   bool needs_truth = false;             ///< True for a control that is given the labels (`oracle`).
   Calibration confidence = {};  ///< Empty: the method gives no evidence (see `EvidenceSink`).

@@ -53,6 +53,9 @@ void MethodRegistry::add(MethodEntry entry) {
   if (entry.variants.empty()) {
     throw ConfigurationError("method '" + entry.name + "' needs at least one variant.");
   }
+  for (const std::string& name : entry.main_parameters) {
+    (void)find_parameter(entry.name, entry.parameters, name);
+  }
   entries_.push_back(std::make_shared<const MethodEntry>(std::move(entry)));
 }
 

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_process.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <csignal>
 #include <exception>
 #include <set>
 #include <system_error>
 #include <vector>
 
+#include "benchmark/process/command_process.h"
 #include "core/files/file_kind.h"
 #include "core/files/part_name.h"
-#include "core/files/scratch_folder.h"
-#include "core/process/child_process.h"
-#include "core/progress.h"
 
 namespace raymoval {
 namespace {
@@ -48,7 +42,6 @@ class LeftOvers {
 
  private:
   void remove() const {
-    remove_abandoned_scratch_folders();
     // The child was ended between two renames: what was there has another name and is the user's.
     if (present() != had_) return;
     std::error_code ignored;
@@ -69,64 +62,20 @@ class LeftOvers {
   std::vector<fs::path> had_;
 };
 
-ExitCode answer_of(const ChildEnd& end, double limit_mib) {
-  if (asking_signal(end) != 0) {
-    throw DataError(fmt::format("cleaning was ended from outside by {}. Nothing was written.",
-                                signal_text(asking_signal(end))));
-  }
-  switch (end.kind) {
-    case ChildEnd::Kind::kNotStarted:
-      throw DataError(not_started_text(end.code));
-    case ChildEnd::Kind::kCancelled:
-    case ChildEnd::Kind::kTimeout:    // There is no limit on time,
-    case ChildEnd::Kind::kOutOfDisk:  // and none on its folder.
-      throw Cancelled();
-    case ChildEnd::Kind::kOutOfMemory:
-      throw DataError(fmt::format(
-          "cleaning took more than {:.0f} MiB of memory (see --memory-limit) and was ended. "
-          "Nothing "
-          "was written. Choose fewer --frames, a larger --voxel, or a method that needs less.{}",
-          limit_mib, end.memory_note));
-    case ChildEnd::Kind::kSignalled:
-      if (end.code == SIGKILL) {
-        throw DataError(fmt::format(
-            "cleaning was killed from outside when it had {:.0f} MiB of memory: by the system if "
-            "memory ran out, or by somebody. Nothing was written.",
-            end.largest_mib));
-      }
-      throw MethodError(
-          fmt::format("cleaning crashed: {}. Nothing was written. Try another --method.",
-                      signal_text(end.code)));
-    case ChildEnd::Kind::kExited:
-      break;
-  }
-  if (end.code >= 0 && end.code <= static_cast<int>(ExitCode::kInternal)) {
-    return static_cast<ExitCode>(end.code);
-  }
-  throw MethodError(
-      fmt::format("cleaning ended with exit code {}. Nothing was written.", end.code));
-}
-
 }  // namespace
 
 ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,
                      double memory_limit_mib, const std::atomic<bool>& cancel) {
   const fs::path first = paths.all().front().path;
   const auto before = identity_of(first);
-  ChildSetup setup;
-  setup.arguments = {"raymoval"};
-  setup.arguments.insert(setup.arguments.end(), arguments.begin(), arguments.end());
-  setup.descriptors = {{STDOUT_FILENO, STDOUT_FILENO}, {STDERR_FILENO, STDERR_FILENO}};
-  setup.limits.memory_mib = memory_limit_mib;
-  setup.cancel = &cancel;
-  ChildEnd end;
-  {
-    const LeftOvers left_overs(paths);
-    end = run_child(setup);
-  }
-  // The line with its progress may still be on the terminal.
-  if (end.kind != ChildEnd::Kind::kExited) Progress(progress_style_of_stderr()).end();
-  const ExitCode answer = answer_of(end, memory_limit_mib);
+  const LeftOvers left_overs(paths);
+  const ExitCode answer = run_command_apart(
+      arguments,
+      {.doing = "cleaning",
+       .outcome = " Nothing was written.",
+       .less_memory = " Choose fewer --frames, a larger --voxel, or a method that needs less.",
+       .after_crash = " Try another --method."},
+      memory_limit_mib, cancel);
   const auto after = identity_of(first);
   if (answer == ExitCode::kDone && (!after || after == before)) {
     throw MethodError("cleaning ended without a map and without an error. Try another --method.");

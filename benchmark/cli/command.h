@@ -87,6 +87,18 @@ struct WorkFlags {
   [[nodiscard]] ProgressStyle style() const { return progress_style(quiet); }
 };
 
+/// The options --memory-limit and --in-process of a command that works in a child process.
+struct ProcessFlags {
+  std::string memory_limit;
+  bool in_process = false;
+
+  void add_to(CommandOptions& options);
+  /// What was given, or the usual limit of the machine. @throws UsageError
+  [[nodiscard]] double memory_limit_mib() const;
+  /// The words of the command line with the option that makes the child do the work itself.
+  [[nodiscard]] static std::vector<std::string> child_arguments(const std::string& command);
+};
+
 /// The file that a command writes besides what it prints, and --overwrite.
 struct OutputFlag {
   std::string option;  ///< Such as "--json".

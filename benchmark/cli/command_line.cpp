@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -43,9 +44,9 @@ void listen_to(int signal, bool unless_ignored) {
   if (unless_ignored && before == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-ExitCode run_program(int argc, const char* const* argv) {
-  CommandParser program("raymoval: evaluates the removal of moving objects from LiDAR maps.",
-                        "raymoval");
+/// @param name what help calls the program
+ExitCode run_program(int argc, const char* const* argv, const std::string& name) {
+  CommandParser program(name + ": evaluates the removal of moving objects from LiDAR maps.", name);
   program.set_version("raymoval " RAYMOVAL_VERSION);
   program.set_footer(
       "Examples:\n"
@@ -137,9 +138,11 @@ int run_with_words(int argc, const char* const* argv, const MethodRegistry* meth
   try {
     std::optional<MethodRegistry> built_in;
     if (methods == nullptr) methods = &built_in.emplace(MethodRegistry::built_in());
+    const std::string name =
+        built_in || argc < 1 ? "raymoval" : std::filesystem::path(argv[0]).filename().string();
     known_methods = methods;
     given_arguments.assign(argv + std::min(argc, 1), argv + argc);
-    return static_cast<int>(run_program(argc, argv));
+    return static_cast<int>(run_program(argc, argv, name));
   } catch (const std::bad_alloc&) {
     return write_plain(kNoMemory);
   } catch (const Error& error) {

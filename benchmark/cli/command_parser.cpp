@@ -67,7 +67,7 @@ void check_nothing_left(const CLI::App& app, const std::string& help) {
 /// "raymoval clean": what was being read of the command line.
 std::string parsed_command(const CLI::App& program) {
   const std::vector<CLI::App*> commands = program.get_subcommands();
-  return "raymoval" + (commands.empty() ? "" : " " + commands.front()->get_name());
+  return program.get_name() + (commands.empty() ? "" : " " + commands.front()->get_name());
 }
 
 /// The parser's message, in plain words where it says "--output: 1 required FILE missing" of an
@@ -92,21 +92,33 @@ std::string chosen_command(const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::App* command : all_commands(program)) {
     if (command->parsed()) {
-      check_nothing_left(*command, "raymoval " + command->get_name());
-      check_nothing_left(program, "raymoval");
+      check_nothing_left(*command, program.get_name() + " " + command->get_name());
+      check_nothing_left(program, program.get_name());
       return command->get_name();
     }
     if (!command->get_group().empty()) names.push_back(command->get_name());
   }
   const std::vector<std::string> left = program.remaining();
   if (left.empty()) throw UsageError("a command is missing: " + join(names) + ".");
-  if (left.front().starts_with("-")) check_nothing_left(program, "raymoval");
+  if (left.front().starts_with("-")) check_nothing_left(program, program.get_name());
   if (!closest_name(left.front(), names)) {
     const auto option = closest_name(left.front(), option_names(program));
     if (option) names = {*option};  // "version"
   }
   throw UsageError("'" + left.front() + "' is no command." + suggestion(left.front(), names) +
-                   " See `raymoval --help`.");
+                   " See `" + program.get_name() + " --help`.");
+}
+
+/// Help with the name of this program in place of `raymoval` before each command.
+std::string with_own_name(const CLI::App& program, std::string text) {
+  constexpr std::string_view kName = "raymoval";
+  for (const CLI::App* command : all_commands(program)) {
+    const std::string from = std::string(kName) + " " + command->get_name();
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += from.size()) {
+      text.replace(at, kName.size(), program.get_name());
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -178,7 +190,7 @@ std::string CommandParser::parse(int argc, const char* const* argv) {
     if (error.get_exit_code() == 0) {
       std::ostringstream text;
       program.exit(error, text, text);
-      parser_->answer = text.str();
+      parser_->answer = with_own_name(program, text.str());
       return "";
     }
     throw UsageError(parse_problem(error) + " See `" + parsed_command(program) + " --help`.");
@@ -193,13 +205,14 @@ const std::string& CommandParser::answer() const {
 std::string CommandParser::help_page(const std::string& command) const {
   const CLI::App& program = parser_->app;
   const auto& formatter = *program.get_formatter();
-  if (command.empty()) return formatter.make_help(&program, "raymoval", CLI::AppFormatMode::Normal);
+  const auto page = [&](const CLI::App* app, const std::string& name) {
+    return with_own_name(program, formatter.make_help(app, name, CLI::AppFormatMode::Normal));
+  };
+  if (command.empty()) return page(&program, program.get_name());
   std::vector<std::string> names;
   for (const CLI::App* app : all_commands(program)) {
     if (app->get_group().empty()) continue;  // Not shown.
-    if (app->get_name() == command) {
-      return formatter.make_help(app, "raymoval " + command, CLI::AppFormatMode::Normal);
-    }
+    if (app->get_name() == command) return page(app, program.get_name() + " " + command);
     names.push_back(app->get_name());
   }
   throw UsageError("'" + command + "' is no command." + suggestion(command, names));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "benchmark/cli/command.h"
 #include "benchmark/run/folder/run_folder.h"
 #include "benchmark/suite/reading_options.h"
@@ -6,6 +8,7 @@
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
 #include "core/parallel.h"
+#include "core/process/proc_files.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
 #include "datasets/reading/left_out.h"
@@ -28,6 +31,26 @@ void WorkFlags::add_to(CommandOptions& options) {
 int WorkFlags::thread_count() const {
   const int given = parse_threads(threads);
   return given > 0 ? given : hardware_threads();
+}
+
+void ProcessFlags::add_to(CommandOptions& options) {
+  options.add("--memory-limit", "SIZE", memory_limit,
+              "The memory it may use, in MiB or with a unit such as 2GB (default: nine tenths of "
+              "the machine's)");
+  options.add_flag("--in-process", in_process,
+                   "Work in this process, for a debugger; there is then no limit on memory");
+}
+
+double ProcessFlags::memory_limit_mib() const {
+  return memory_limit.empty() ? usual_memory_limit_mib()
+                              : parse_memory_mib("--memory-limit", memory_limit);
+}
+
+std::vector<std::string> ProcessFlags::child_arguments(const std::string& command) {
+  std::vector<std::string> arguments = program_arguments();
+  const auto found = std::find(arguments.begin(), arguments.end(), command);
+  arguments.insert(found == arguments.end() ? found : found + 1, "--in-process");
+  return arguments;
 }
 
 void OutputFlag::add_to(CommandOptions& options, const std::string& names,

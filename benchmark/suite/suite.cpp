@@ -84,7 +84,7 @@ Setting parse_setting(const std::string& text) {
   const std::size_t dot = equals == std::string::npos ? equals : text.rfind('.', equals);
   if (dot == std::string::npos || dot == 0 || dot + 1 == equals) {
     throw UsageError("--set " + text +
-                     ": expected METHOD.key=value, such as raymoval.tau0=0.2, or "
+                     ": expected METHOD.key=value, such as raymoval.voxel_size=0.1, or "
                      "protocol:NAME.key=value, such as protocol:erasor.lift=0.");
   }
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};

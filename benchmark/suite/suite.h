@@ -61,7 +61,7 @@ struct Suite {
   double memory_limit_mib = 0.0;  ///< Of a cell; 0 means the usual limit of the machine.
 };
 
-/// The parts of `--set raymoval:online.tau0=0.2`.
+/// The parts of `--set raymoval:online.tau1=0.2`.
 struct Setting {
   /// Method ("raymoval"), method and variant, cell name, or protocol ("protocol:erasor").
   std::string target;

@@ -177,7 +177,7 @@ std::vector<SweepPoint> sweep_points(const json& set, const std::string& where) 
   return points;
 }
 
-/// "raymoval:online:tau0=0.2,tau1=0.3"
+/// "raymoval:online:tau1=0.3,voxel_size=0.1"
 std::string point_name(const std::string& base, const Configuration& point) {
   std::vector<std::string> parts;
   for (const auto& [key, value] : point) parts.push_back(key + "=" + parameter_text(value));

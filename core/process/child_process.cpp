@@ -13,11 +13,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <set>
 #include <system_error>
 
 #include "core/process/family_memory.h"
 #include "core/process/foster_parent.h"
 #include "core/process/output_tail.h"
+#include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/process/start_child.h"
 
@@ -28,9 +30,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTickMs = 20;
 
-/// What the files below a folder take on the disk. Files come and go meanwhile: what cannot be
-/// looked at does not count.
-double folder_size_mib(const std::filesystem::path& folder) {
+/// What the files below a folder take on the disk, with those on the same disk that `members` hold
+/// open and that have no name any more. Files come and go meanwhile: what cannot be looked at does
+/// not count.
+double folder_size_mib(const std::filesystem::path& folder, const std::vector<pid_t>& members) {
   namespace fs = std::filesystem;
   constexpr auto kSkip = fs::directory_options::skip_permission_denied;
   double mib = 0.0;
@@ -39,10 +42,19 @@ double folder_size_mib(const std::filesystem::path& folder) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kSkip)) {
       struct stat status {};
       if (::lstat(entry.path().c_str(), &status) != 0) continue;
-      mib += static_cast<double>(status.st_blocks) / 2048.0;
+      mib += size_mib(status);
     }
   } catch (const fs::filesystem_error&) {
     // A folder went away; the next look sees what is left.
+  }
+  struct stat own {};
+  if (::stat(folder.c_str(), &own) != 0) return mib;
+  std::set<ino_t> nameless;  // Several may hold the same file.
+  for (const pid_t process : members) {
+    for (const OpenFile& file : open_files(process)) {
+      if (file.status.st_nlink > 0 || file.status.st_dev != own.st_dev) continue;
+      if (nameless.insert(file.status.st_ino).second) mib += size_mib(file.status);
+    }
   }
   return mib;
 }
@@ -141,7 +153,7 @@ class ChildWatch {
   [[nodiscard]] bool exceeds_folder() {
     if (setup_.limits.folder_mib <= 0.0 || !folder_pace_.is_due()) return false;
     folder_pace_.begin();
-    const double size = folder_size_mib(setup_.folder);
+    const double size = folder_size_mib(setup_.folder, family_.members());
     folder_pace_.end();
     return size > setup_.limits.folder_mib;
   }

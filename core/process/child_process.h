@@ -13,7 +13,9 @@ namespace raymoval {
 struct ChildLimits {
   double seconds = 0.0;     ///< Wall time from its start.
   double memory_mib = 0.0;  ///< Of the child and its descendants, see `FamilyMemory`.
-  double folder_mib = 0.0;  ///< Of the files below its working folder on the disk, roughly.
+  /// Of the files below its working folder on the disk, roughly, and of deleted ones that it holds
+  /// open there.
+  double folder_mib = 0.0;
 };
 
 /// The program that calls this.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/process/family_memory.h"
 
-#include <dirent.h>
-#include <fcntl.h>
 #include <linux/magic.h>
-#include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <sys/vfs.h>
 
@@ -12,7 +9,6 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -42,16 +38,11 @@ bool is_in_memory(const std::string& descriptor) {
 
 /// Adds the files without a disk that a process holds open and that were written since `began`.
 void add_open_files(pid_t process, const timespec& began, FileSizes& files) {
-  const std::string folder = (proc_folder(process) / "fd").string();
-  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
-  if (entries == nullptr) return;
-  while (const dirent* entry = ::readdir(entries.get())) {
-    struct stat status {};
-    if (::fstatat(::dirfd(entries.get()), entry->d_name, &status, 0) != 0) continue;
-    if (!S_ISREG(status.st_mode) || status.st_blocks == 0) continue;
-    if (is_earlier(status.st_ctim, began)) continue;
-    if (!is_in_memory(folder + "/" + entry->d_name)) continue;
-    files[{status.st_dev, status.st_ino}] = static_cast<double>(status.st_blocks) / 2048.0;
+  for (const OpenFile& file : open_files(process)) {
+    const struct stat& status = file.status;
+    if (status.st_blocks == 0 || is_earlier(status.st_ctim, began)) continue;
+    if (!is_in_memory(file.path)) continue;
+    files[{status.st_dev, status.st_ino}] = size_mib(status);
   }
 }
 
@@ -77,14 +68,38 @@ void Pace::end() {
   next_ = now + std::max<Clock::duration>(rest_, 10 * took);
 }
 
-FamilyMemory::FamilyMemory(double limit_mib)
+timespec file_clock() {
+  timespec now{};
+  ::clock_gettime(CLOCK_REALTIME_COARSE, &now);
+  return now;
+}
+
+FamilyMemory::FamilyMemory(double limit_mib, timespec (*clock)())
     : limit_mib_(limit_mib),
+      clock_(clock),
+      began_(clock()),
       share_pace_(std::chrono::milliseconds(20)),
-      file_pace_(std::chrono::milliseconds(100)) {
-  ::clock_gettime(CLOCK_REALTIME_COARSE, &began_);  // The clock of files.
+      file_pace_(std::chrono::milliseconds(100)) {}
+
+/// If the clock was set back, files that were written since then have earlier times.
+void FamilyMemory::follow_clock() {
+  using std::chrono::nanoseconds;
+  constexpr long kSecond = 1'000'000'000;
+  const auto since = std::chrono::duration_cast<nanoseconds>(Pace::Clock::now() - last_look_);
+  last_look_ += since;
+  // What the clock would have said at the last look.
+  timespec then = clock_();
+  then.tv_sec -= since.count() / kSecond;
+  then.tv_nsec -= since.count() % kSecond;
+  if (then.tv_nsec < 0) {
+    --then.tv_sec;
+    then.tv_nsec += kSecond;
+  }
+  if (is_earlier(then, began_)) began_ = then;
 }
 
 double FamilyMemory::measure(const std::vector<pid_t>& members) {
+  follow_clock();
   double sum = 0.0;
   for (const pid_t process : members) sum += resident_mib(process);
   if (file_pace_.is_due()) {

@@ -29,6 +29,9 @@ class Pace {
   Clock::time_point begun_, next_, earliest_;
 };
 
+/// The time as file systems note it.
+timespec file_clock();
+
 /// Measures the memory of a family of processes again and again, at little cost.
 ///
 /// This is the memory that the system would regain if the family ended, without files on a disk.
@@ -42,7 +45,7 @@ class Pace {
 class FamilyMemory {
  public:
   /// @param limit_mib 0 means that there is none
-  explicit FamilyMemory(double limit_mib);
+  explicit FamilyMemory(double limit_mib, timespec (*clock)() = file_clock);
 
   /// The memory of these processes in MiB. It is exact if it exceeds the limit; else it may be more
   /// than their memory.
@@ -53,11 +56,14 @@ class FamilyMemory {
   [[nodiscard]] bool counts_shares_in_full() const { return counts_shares_in_full_; }
 
  private:
+  void follow_clock();
   [[nodiscard]] double proportional_mib(const std::vector<pid_t>& members);
   [[nodiscard]] double unmapped_files_mib(const std::vector<pid_t>& members) const;
 
   double limit_mib_;
-  timespec began_{};
+  timespec (*clock_)();
+  timespec began_;  ///< Files that were written before are not the family's.
+  Pace::Clock::time_point last_look_ = Pace::Clock::now();
   Pace share_pace_, file_pace_;
   double files_mib_ = 0.0;
   double last_share_mib_ = 0.0, sum_then_mib_ = 0.0;  ///< Of the last measurement of shares.

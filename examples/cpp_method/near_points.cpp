@@ -44,7 +44,7 @@ MethodEntry near_entry() {
   MethodEntry entry;
   entry.name = "near";
   entry.sentence = "Removes what is near the sensor.";
-  entry.variants = {{"default", "Each scan by itself.", true, {}}};
+  entry.variants = {{.name = "default", .sentence = "Each scan by itself.", .online = true}};
   entry.bind(table, make_near);
   return entry;
 }

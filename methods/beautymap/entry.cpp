@@ -81,10 +81,16 @@ MethodEntry beautymap_entry() {
       "divides by zero.",
   };
   entry.variants = {
-      {"published", "As the public program is set for KITTI.", false, {}},
-      {"semi-indoor", "The public program's settings for rooms.", false, indoor},
-      {"sound", "Without the quirks of the public program.", false, sound},
-      {"wide", "Without the quirks, and judging up to 50 m instead of 20.", false, wide},
+      {.name = "published", .sentence = "As the public program is set for KITTI."},
+      {.name = "semi-indoor",
+       .sentence = "The public program's settings for rooms.",
+       .overrides = indoor},
+      {.name = "sound",
+       .sentence = "Without the quirks of the public program.",
+       .overrides = sound},
+      {.name = "wide",
+       .sentence = "Without the quirks, and judging up to 50 m instead of 20.",
+       .overrides = wide},
   };
   entry.bind(beautymap_method::make_table(), beautymap_method::make_beautymap);
   return entry;

@@ -24,7 +24,7 @@ MethodEntry control(const char* name, const char* sentence) {
   entry.name = name;
   entry.sentence = sentence;
   entry.source = "control of the scoring";
-  entry.variants = {{"default", sentence, true, {}}};
+  entry.variants = {{.name = "default", .sentence = sentence, .online = true}};
   return entry;
 }
 

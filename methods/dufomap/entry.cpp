@@ -68,13 +68,18 @@ MethodEntry dufomap_entry() {
       "there, are left out.",
   };
   entry.variants = {
-      {"offline", "Every point answered after the last scan.", false, {}},
-      {"online", "Each scan answered once it is integrated.", true, {{"offline", false}}},
-      {"offline-dp2", "Offline with d_p 2.", false, {{"unknown_inflation", std::int64_t{2}}}},
-      {"online-dp2",
-       "Online with d_p 2.",
-       true,
-       {{"offline", false}, {"unknown_inflation", std::int64_t{2}}}},
+      {.name = "offline", .sentence = "Every point answered after the last scan."},
+      {.name = "online",
+       .sentence = "Each scan answered once it is integrated.",
+       .online = true,
+       .overrides = {{"offline", false}}},
+      {.name = "offline-dp2",
+       .sentence = "Offline with d_p 2.",
+       .overrides = {{"unknown_inflation", std::int64_t{2}}}},
+      {.name = "online-dp2",
+       .sentence = "Online with d_p 2.",
+       .online = true,
+       .overrides = {{"offline", false}, {"unknown_inflation", std::int64_t{2}}}},
   };
   entry.bind(dufomap_method::make_table(), dufomap_method::make_dufomap);
   return entry;

@@ -89,10 +89,19 @@ MethodEntry dynablox_entry() {
       "off, are left out, as is the voxels' flag 'dynamic', which nothing reads.",
   };
   entry.variants = {
-      {"published", "As the public program is configured, without its mistakes.", true, {}},
-      {"wide", "Up to 80 m instead of 20.", true, {{"max_range", 80.0}}},
-      {"offline", "A point goes if its voxel is ever free in the end.", false, {{"offline", true}}},
-      {"offline-wide", "Both.", false, {{"max_range", 80.0}, {"offline", true}}},
+      {.name = "published",
+       .sentence = "As the public program is configured, without its mistakes.",
+       .online = true},
+      {.name = "wide",
+       .sentence = "Up to 80 m instead of 20.",
+       .online = true,
+       .overrides = {{"max_range", 80.0}}},
+      {.name = "offline",
+       .sentence = "A point goes if its voxel is ever free in the end.",
+       .overrides = {{"offline", true}}},
+      {.name = "offline-wide",
+       .sentence = "Both.",
+       .overrides = {{"max_range", 80.0}, {"offline", true}}},
   };
   entry.bind(dynablox_method::make_table(), dynablox_method::make_dynablox);
   return entry;

@@ -119,25 +119,23 @@ std::vector<MethodVariant> variants() {
   const Configuration kitti07 = {
       {"min_h", -0.8}, {"max_h", 3.1}, {"gf_dist_thr", 0.125}, {"num_lowest_pts", std::int64_t{1}}};
   return {
-      {"general", "The median of the authors' five sets of 2021, value by value.", false, {}},
-      {"kitti00", text("00"), false, kitti00},
-      {"kitti01", text("01"), false, kitti01},
-      {"kitti02", text("02"), false, kitti02},
-      {"kitti05", text("05"), false, kitti05},
-      {"kitti07", text("07"), false, kitti07},
-      {"fine",
-       "The general set with the voxels of 0.1 m that the KTH port works with.",
-       false,
-       {{"map_voxel_size", 0.1}, {"query_voxel_size", 0.1}}},
-      {"version2",
-       "The general set with the order of operations that the paper describes.",
-       false,
-       {{"version", std::int64_t{2}}}},
-      {"auto",
-       "The general set with what it needs from the data: the ground around the sensor, and how "
-       "few points its beams leave in a bin.",
-       false,
-       {{"body", std::string("ground")}, {"points_by_beams", true}}},
+      {.name = "general",
+       .sentence = "The median of the authors' five sets of 2021, value by value."},
+      {.name = "kitti00", .sentence = text("00"), .overrides = kitti00},
+      {.name = "kitti01", .sentence = text("01"), .overrides = kitti01},
+      {.name = "kitti02", .sentence = text("02"), .overrides = kitti02},
+      {.name = "kitti05", .sentence = text("05"), .overrides = kitti05},
+      {.name = "kitti07", .sentence = text("07"), .overrides = kitti07},
+      {.name = "fine",
+       .sentence = "The general set with the voxels of 0.1 m that the KTH port works with.",
+       .overrides = {{"map_voxel_size", 0.1}, {"query_voxel_size", 0.1}}},
+      {.name = "version2",
+       .sentence = "The general set with the order of operations that the paper describes.",
+       .overrides = {{"version", std::int64_t{2}}}},
+      {.name = "auto",
+       .sentence = "The general set with what it needs from the data: the ground around the "
+                   "sensor, and how few points its beams leave in a bin.",
+       .overrides = {{"body", std::string("ground")}, {"points_by_beams", true}}},
   };
 }
 

@@ -159,11 +159,11 @@ MethodEntry external_entry(const std::filesystem::path& manifest) {
   entry.version = read.version + "+" + external_method::program_hash(read).substr(0, 16);
   entry.notes = read.notes;
   entry.parameters = read.parameters;
-  entry.variants = {{"default",
-                     read.online ? "Answers for a scan from it and earlier ones, its manifest says."
-                                 : "Answers from all scans.",
-                     read.online,
-                     {}}};
+  entry.variants = {
+      {.name = "default",
+       .sentence = read.online ? "Answers for a scan from it and earlier ones, its manifest says."
+                               : "Answers from all scans.",
+       .online = read.online}};
   entry.manifest = read.path.string();
   entry.make = [read = std::move(read)](const Configuration& parameters) {
     return std::make_unique<external_method::External>(read, parameters);

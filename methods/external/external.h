@@ -11,7 +11,7 @@ namespace raymoval {
 
 // An external method is a program in any language. A manifest names it and its parameters. The
 // program gets scans and parameters as files in a working folder and answers with a label file for
-// each scan (see methods/README.md for the layout).
+// each scan (see docs/your-method.md for the layout).
 
 /// "PATH/manifest.json" for the name "external:PATH/manifest.json"; no value for the name of a
 /// method of another kind.

@@ -75,6 +75,14 @@ std::vector<ParameterSpec> parameters_of(const Fields& file, const std::string& 
   return specs;
 }
 
+/// A text, or a whole number, which is taken for one.
+std::string version_of(const Fields& file) {
+  if (!file.has("version") || !file.member("version").is_number_integer()) {
+    return file.text("version");
+  }
+  return file.member("version").dump();
+}
+
 bool online_of(const Fields& file) {
   if (file.has("online")) return file.flag("online", false);
   throw ConfigurationError(file.where() + ": 'online' is missing: true if the answer for a scan " +
@@ -192,7 +200,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
   check_name(manifest.name, file.where());
   manifest.sentence = file.text("sentence");
   manifest.source = file.text("source", "");
-  manifest.version = file.text("version");
+  manifest.version = version_of(file);
   manifest.online = online_of(file);
   manifest.notes = file.texts("notes");
   manifest.command = file.texts("command");

@@ -91,11 +91,11 @@ MethodEntry freedom_entry() {
       "image of a field of view, the erosion of holes, and least sizes of holes.",
   };
   entry.variants = {
-      {"published", "As the public program is set for KITTI.", false, {}},
-      {"few-counts",
-       "Three scans make a voxel free: the public settings for rooms, Livox and KITTI 01.",
-       false,
-       {{"counts_to_free", std::int64_t{3}}}},
+      {.name = "published", .sentence = "As the public program is set for KITTI."},
+      {.name = "few-counts",
+       .sentence =
+           "Three scans make a voxel free: the public settings for rooms, Livox and KITTI 01.",
+       .overrides = {{"counts_to_free", std::int64_t{3}}}},
   };
   entry.bind(freedom_method::make_table(), freedom_method::make_freedom);
   return entry;

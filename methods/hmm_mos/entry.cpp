@@ -101,12 +101,15 @@ MethodEntry hmm_mos_entry() {
       "its state was last known. The public program has no answer for a whole map.",
   };
   entry.variants = {
-      {"published", "As the public program is set.", true, {}},
-      {"fine", "With voxels of 0.2 m, as its README says.", true, {{"voxel_size", 0.2}}},
-      {"offline",
-       "Ours: voxels lie at their middle, and points go whose voxel was last known to be free.",
-       false,
-       {{"public_lattice", false}, {"offline", true}}},
+      {.name = "published", .sentence = "As the public program is set.", .online = true},
+      {.name = "fine",
+       .sentence = "With voxels of 0.2 m, as its README says.",
+       .online = true,
+       .overrides = {{"voxel_size", 0.2}}},
+      {.name = "offline",
+       .sentence =
+           "Ours: voxels lie at their middle, and points go whose voxel was last known to be free.",
+       .overrides = {{"public_lattice", false}, {"offline", true}}},
   };
   entry.bind(hmm_mos_method::make_table(), hmm_mos_method::make_hmm_mos);
   return entry;

@@ -181,10 +181,11 @@ MethodEntry mapcleaner_entry() {
 )";
   entry.notes = mapcleaner_notes();
   entry.variants = {
-      {"published", "As the public program is set for KITTI.", false, {}},
-      {"sound",
-       "Without the quirks of the public program: height, axes and field of view are the sensor's.",
-       false, sound},
+      {.name = "published", .sentence = "As the public program is set for KITTI."},
+      {.name = "sound",
+       .sentence = "Without the quirks of the public program: height, axes and field of view are "
+                   "the sensor's.",
+       .overrides = sound},
   };
   entry.bind(mapcleaner_method::make_table(), mapcleaner_method::make_mapcleaner);
   return entry;

@@ -161,12 +161,21 @@ MethodEntry octomap_entry() {
   entry.notes = octomap_notes();
   entry.confidence = octomap_confidence();
   entry.variants = {
-      {"r20", "liboctomap's insertPointCloud with leaves of 0.2 m.", false, {}},
-      {"r05", "The same with leaves of 0.05 m.", false, {{"resolution", 0.05}}},
-      {"kth", "The KTH port's shipped setting: 0.1 m, hits do not suppress misses.", false, kth},
-      {"ground", "The KTH port with its ground plane ('w G')." + needs, false, ground, kHasPcl},
-      {"ground-noise", "The KTH port with ground plane and noise filter ('w GF')." + needs, false,
-       ground_noise, kHasPcl},
+      {.name = "r20", .sentence = "liboctomap's insertPointCloud with leaves of 0.2 m."},
+      {.name = "r05",
+       .sentence = "The same with leaves of 0.05 m.",
+       .overrides = {{"resolution", 0.05}}},
+      {.name = "kth",
+       .sentence = "The KTH port's shipped setting: 0.1 m, hits do not suppress misses.",
+       .overrides = kth},
+      {.name = "ground",
+       .sentence = "The KTH port with its ground plane ('w G')." + needs,
+       .overrides = ground,
+       .is_available = kHasPcl},
+      {.name = "ground-noise",
+       .sentence = "The KTH port with ground plane and noise filter ('w GF')." + needs,
+       .overrides = ground_noise,
+       .is_available = kHasPcl},
   };
   entry.bind(octomap_method::make_table(), octomap_method::make_octomap);
   return entry;

@@ -80,20 +80,20 @@ MethodEntry peopleremover_entry() {
       "and the values of maxrange-method that abort in 3DTK are left out.",
   };
   entry.variants = {
-      {"normals", "Point shadows, voxels of 0.2 m: what its authors recommend.", false, {}},
-      {"fine",
-       "Point shadows, voxels of 0.1 m: 3DTK's default size.",
-       false,
-       {{"voxel_size", 0.1}}},
-      {"none",
-       "Whole beams, voxels of 0.2 m: nothing protects surfaces seen at a grazing angle.",
-       false,
-       {{"maxrange_method", none}}},
-      {"plain",
-       "Whole beams, voxels of 0.2 m, freed voxels only: comes nearest to the rows that papers "
-       "print.",
-       false,
-       {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
+      {.name = "normals",
+       .sentence = "Point shadows, voxels of 0.2 m: what its authors recommend."},
+      {.name = "fine",
+       .sentence = "Point shadows, voxels of 0.1 m: 3DTK's default size.",
+       .overrides = {{"voxel_size", 0.1}}},
+      {.name = "none",
+       .sentence =
+           "Whole beams, voxels of 0.2 m: nothing protects surfaces seen at a grazing angle.",
+       .overrides = {{"maxrange_method", none}}},
+      {.name = "plain",
+       .sentence =
+           "Whole beams, voxels of 0.2 m, freed voxels only: comes nearest to the rows that papers "
+           "print.",
+       .overrides = {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
   };
   entry.bind(peopleremover_method::make_table(), peopleremover_method::make_peopleremover);
   return entry;

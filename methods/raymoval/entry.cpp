@@ -136,19 +136,19 @@ namespace {
 
 std::vector<MethodVariant> raymoval_variants() {
   return {
-      {"offline", "Every scan tested against the prior map that all scans leave.", false, {}},
-      {"online",
-       "Each scan answered when it arrives, from a growing map.",
-       true,
-       {{"offline", false}}},
-      {"table1",
-       "As offline, with every value as printed in Table 1.",
-       false,
-       {{"erase_tau1", 0.35}, {"erase_percentile", 0.9}}},
-      {"table1-online",
-       "As online, with every value as printed in Table 1.",
-       true,
-       {{"offline", false}, {"erase_tau1", 0.35}, {"erase_percentile", 0.9}}},
+      {.name = "offline",
+       .sentence = "Every scan tested against the prior map that all scans leave."},
+      {.name = "online",
+       .sentence = "Each scan answered when it arrives, from a growing map.",
+       .online = true,
+       .overrides = {{"offline", false}}},
+      {.name = "table1",
+       .sentence = "As offline, with every value as printed in Table 1.",
+       .overrides = {{"erase_tau1", 0.35}, {"erase_percentile", 0.9}}},
+      {.name = "table1-online",
+       .sentence = "As online, with every value as printed in Table 1.",
+       .online = true,
+       .overrides = {{"offline", false}, {"erase_tau1", 0.35}, {"erase_percentile", 0.9}}},
   };
 }
 

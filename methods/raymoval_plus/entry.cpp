@@ -28,6 +28,12 @@ MethodEntry raymoval_plus_entry() {
        {0.9458F, 0.9839F},
        {0.9694F, 0.9940F},
        {0.9844F, 0.9989F}}};
+  // EXPERIMENTS.md, "Main parameters", has what each changes.
+  entry.main_parameters = {"free_constant", "vote_share", "agree_constant", "evidence_range_max",
+                           "voxel_size"};
+  entry.advice =
+      "If too much is removed, raise free_constant, vote_share or agree_constant. If too little is "
+      "removed, lower them; if far objects stay, raise evidence_range_max.";
   // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
   // voxels around have to be dynamic.
   const Configuration at_once = {
@@ -35,15 +41,20 @@ MethodEntry raymoval_plus_entry() {
   Configuration a_second_later = at_once;
   a_second_later.emplace_back("delay", 1.0);
   entry.variants = {
-      {"offline", "Every point answered from all scans.", false, {}},
-      {"online", "Each scan answered when it comes.", true, at_once},
-      {"online-lag",
-       "Each scan answered once, a second after it came (delay), from the scans up to then.", true,
-       a_second_later},
-      {"online-map",
-       "One pass as the scans come, every point answered by the map as it is in the end.",
-       false,
-       {{"one_pass", true}}},
+      {.name = "offline", .sentence = "Every point answered from all scans."},
+      {.name = "online",
+       .sentence = "Each scan answered when it comes.",
+       .online = true,
+       .overrides = at_once},
+      {.name = "online-lag",
+       .sentence =
+           "Each scan answered once, a second after it came (delay), from the scans up to then.",
+       .online = true,
+       .overrides = a_second_later},
+      {.name = "online-map",
+       .sentence =
+           "One pass as the scans come, every point answered by the map as it is in the end.",
+       .overrides = {{"one_pass", true}}},
   };
   entry.bind(raymoval_plus_method::parameter_table(), raymoval_plus_method::make_raymoval_plus);
   return entry;

@@ -89,17 +89,18 @@ Configuration removert_with(Configuration base, const Configuration& more) {
 std::vector<MethodVariant> removert_variants() {
   const Configuration code = removert_code();
   return {
-      {"rm3", "Three remove passes.", false, {}},
-      {"rm3-rv1",
-       "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
-       false,
-       {{"revert_resolution_1", 1.8182}}},
-      {"code", "As the public code answers, its faults included.", false,
-       removert_with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
-      {"port",
-       "As the ROS-free port answers with images along the sensor's axes; it tests the same map in "
-       "every pass.",
-       false, removert_with(code, {{"update_between_passes", false}})},
+      {.name = "rm3", .sentence = "Three remove passes."},
+      {.name = "rm3-rv1",
+       .sentence = "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
+       .overrides = {{"revert_resolution_1", 1.8182}}},
+      {.name = "code",
+       .sentence = "As the public code answers, its faults included.",
+       .overrides =
+           removert_with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
+      {.name = "port",
+       .sentence = "As the ROS-free port answers with images along the sensor's axes; it tests the "
+                   "same map in every pass.",
+       .overrides = removert_with(code, {{"update_between_passes", false}})},
   };
 }
 

@@ -199,7 +199,8 @@ MethodEntry python_entry(const py::dict& described) {
     spec.default_value = value_from(spec.name, value);
     entry.parameters.push_back(std::move(spec));
   }
-  entry.variants = {{"python", "As it is.", described["online"].cast<bool>(), {}}};
+  entry.variants = {
+      {.name = "python", .sentence = "As it is.", .online = described["online"].cast<bool>()}};
   const SharedObject make(described["make"]);
   entry.make = [make, name = entry.name](const Configuration& values) {
     const py::gil_scoped_acquire gil;

@@ -96,14 +96,15 @@ def parameter_page(program, name, title):
     return f"# {title}\n\n{text.strip()}\n"
 
 
-def pages(program):
-    """{path: text} of the pages that only the program is asked for."""
+def pages(program, house):
+    """{path: text} of the pages that only the program is asked for. `house` is the folder of the repository."""
     made = {COMMANDS: commands_page(program)}
     for name in names_listed(program, "methods"):
         if name in ("noop", "remove-all", "oracle"):
             continue
-        made[f"{PARAMETERS}{name}.md"] = parameter_page(program, name, name) + (
-            f"\n[How {name} works](../../methods/{name}/README.md), and what it scores.\n")
+        made[f"{PARAMETERS}{name}.md"] = parameter_page(program, name, name)
+        if (house / f"methods/{name}/README.md").is_file():
+            made[f"{PARAMETERS}{name}.md"] += f"\n[How {name} works](../../methods/{name}/README.md), and what it scores.\n"
     for name in names_listed(program, "protocols"):
         made[f"{PARAMETERS}protocol-{name}.md"] = parameter_page(
             program, "protocol:" + name, f"Protocol {name}") + (

@@ -335,7 +335,7 @@ def main():
     own = pages_of(HOUSE)
     stage_pages(own, pages)
     shutil.copyfile(HERE / "site.css", pages / "site.css")
-    made = reference.pages(given.program.resolve())
+    made = reference.pages(given.program.resolve(), HOUSE)
     made[PYTHON_API] = reference.python_page(HOUSE / "python/raymoval")
     made[CPP_API] = reference.cpp_page(given.cpp, pages / "cpp")
     made[EXAMPLE] = reference.example_page(given.report, pages / "reference/report.html")

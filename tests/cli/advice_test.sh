@@ -192,6 +192,13 @@ for command in "" compare; do
 done
 expect 0 "variants worth a comparison" list suites
 expect 0 "this project" describe raymoval_plus
+parameters() { "$raymoval" describe "$@" | sed -nE 's/^  ([a-z_0-9]+) = .*/\1/p'; }
+holds "describe shows five main parameters" test "$(parameters raymoval_plus | wc -l)" -eq 5
+holds "with --all they come first" test "$(parameters raymoval_plus --all | head -n 5)" = "$(parameters raymoval_plus)"
+holds "and each comes once" test -z "$(parameters raymoval_plus:online --all | sort | uniq -d)"
+holds "and all are there" test "$(parameters raymoval_plus --all | wc -l)" -eq \
+  "$("$raymoval" describe raymoval_plus --json | grep -c '"acts_when"')"
+expect 0 "If too much is removed" describe raymoval_plus
 expect 0 "raymoval_plus:offline removed" clean street --frames 0:2 --quiet -o best.pcd
 holds "no refused command left anything" test ! -e o -a ! -e map.pcd
 

@@ -120,6 +120,11 @@ for tile in tiles/tile_*.pcd; do sum=$((sum + $(points "$tile"))); done
 holds "tiles have every point" test "$sum" -eq "$(points all/static.pcd)"
 holds "the manifest lists each" test "$(grep -c '"file"' tiles/manifest.json)" -eq "$(ls tiles/*.pcd | wc -l)"
 
+# Tiles of a mistaken unit are refused before the work.
+expect 2 "more than 100,000 tiles of 0.001 m, which is the limit of a map. Choose larger tiles" \
+  clean drive "${online[@]}" -o tiny --tiles 0.001
+holds "no folder of tiles is left" test ! -e tiny
+
 # How sure the method is stands behind the other fields of each map, and changes nothing else.
 expect 2 "raymoval does not tell how sure it is" clean drive "${online[@]}" -o sure.pcd --confidence
 expect 2 "--confidence has no effect" clean drive --labels sure --confidence
@@ -163,6 +168,9 @@ nothing_left "a kill"
 expect 1 "cleaning ended without a map" clean drive --method quit "${outputs[@]}"
 nothing_left "an end without an answer"
 expect 2 "--memory-limit" clean drive --memory-limit much -o map.pcd
+expect 2 "--memory-limit" inspect drive --memory-limit much
+expect 2 "inspecting took more than 1 MiB of memory (see --memory-limit) and was ended. Choose fewer" \
+  inspect drive --memory-limit 1
 "$raymoval" clean drive --method comb --set comb.milliseconds=300 "${outputs[@]}" 2>interrupted.txt &
 process=$!
 until compgen -G 'map.pcd*.part' >/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.05; done

@@ -38,7 +38,7 @@ int main() {
   MethodEntry entry;
   entry.name = "near";
   entry.parameters = {{"limit", 10.0, {.unit = "m", .minimum = 0.0}, {}}};
-  entry.variants = {{"default", "Removes what is near.", true, {}}};
+  entry.variants = {{.name = "default", .sentence = "Removes what is near.", .online = true}};
   entry.make = [](const Configuration& values) {
     return std::make_unique<NearRemover>(std::get<double>(values.front().second));
   };

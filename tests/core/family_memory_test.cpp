@@ -104,6 +104,22 @@ TEST_CASE("an open file without a disk counts as memory if it was written meanwh
   CHECK(before.measure({::getpid()}) == Approx(without + 40.0).margin(3.0));
 }
 
+TEST_CASE("an open file without a disk counts if the clock was set back before it was written") {
+  static long ahead_s = 0;
+  ahead_s = 3600;
+  FamilyMemory memory(kAnyMib, [] {
+    timespec now = file_clock();
+    now.tv_sec += ahead_s;
+    return now;
+  });
+  const double without = memory.measure({::getpid()});
+  ahead_s = 0;
+  const Descriptor file = memory_file("unmapped");
+  REQUIRE(write_at(file.get(), std::string(40 * kMib, 'x'), 0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  CHECK(memory.measure({::getpid()}) == Approx(without + 40.0).margin(3.0));
+}
+
 TEST_CASE("a child that fills a file without a disk is ended for its memory") {
   const std::string file = "/dev/shm/raymoval-test-" + std::to_string(::getpid());
   const ChildEnd end = run_child(limited_mib(
@@ -116,6 +132,12 @@ TEST_CASE("a child that fills its folder is ended") {
   const TemporaryFolder folder;
   ChildSetup setup = limited("mkdir a; head -c 30000000 /dev/urandom >a/b; exec sleep 600", 60);
   setup.folder = folder.text();
+  setup.limits.folder_mib = 20.0;
+  CHECK(run_child(setup).kind == Kind::kOutOfDisk);
+  // A file that has no name any more takes as much.
+  const TemporaryFolder emptied;
+  setup = limited("exec 9>b; rm b; head -c 30000000 /dev/urandom >&9; exec sleep 600", 60);
+  setup.folder = emptied.text();
   setup.limits.folder_mib = 20.0;
   CHECK(run_child(setup).kind == Kind::kOutOfDisk);
   setup = limited("head -c 10000000 /dev/urandom >c; sleep 1.2", 60);

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -13,10 +14,15 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "datasets/bags/bag.h"
+#include "datasets/bags/messages/point_cloud.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/poses.h"
 #include "datasets/trajectories/pose_file.h"
 #include "datasets/trajectories/stamps.h"
+#include "tests/datasets/bags/mcap_records.h"
+#include "tests/datasets/bags/message_bytes.h"
+#include "tests/datasets/bags/ros1_writer.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -97,6 +103,47 @@ std::string lzf_bomb(std::size_t references) {
   return sizes + packed;
 }
 
+/// A message with `points` points of `step` bytes each, that all lie at (1, 1, 1).
+std::string cloud_of_bytes(std::uint32_t points, std::uint32_t step) {
+  test::CloudHead head;
+  head.width = points;
+  head.point_step = step;
+  head.fields = {{"x", 0, 2}, {"y", step / 3, 2}, {"z", 2 * (step / 3), 2}};
+  return test::cloud_message(test::MessageBytes(MessageEncoding::kRos1), head,
+                             std::string(points * step, '\1'));
+}
+
+/// A MCAP file with one chunk, which unpacks to 1,000 times its size: that message.
+std::string mcap_bomb(std::uint32_t points, std::uint32_t step) {
+  using namespace test::mcap;
+  const std::string records = record(McapOp::kSchema, schema(1, "sensor_msgs/PointCloud2")) +
+                              record(McapOp::kChannel, channel(1, 1, "/points", "ros1")) +
+                              record(McapOp::kMessage, message(1, 5, cloud_of_bytes(points, step)));
+  std::string packed(ZSTD_compressBound(records.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), records.data(), records.size(), 1));
+  const std::size_t filling = records.size() / 1000 - packed.size() - 8;  // A frame to skip.
+  packed += number(std::uint32_t{0x184D2A50}) + number(static_cast<std::uint32_t>(filling)) +
+            std::string(filling, '\0');
+  return mcap_of({{McapOp::kChunk, chunk("zstd", records.size(), 0, packed)},
+                  {McapOp::kDataEnd, std::string(4, '\0')}});
+}
+
+/// The same as a ROS 1 bag, whose chunk unpacks to 250 times its size.
+std::string ros1_bomb(std::uint32_t points, std::uint32_t step) {
+  test::Ros1Writer bag(Ros1Compression::kLz4);
+  bag.message(0, "/points", "sensor_msgs/PointCloud2", "", 5, cloud_of_bytes(points, step));
+  return bag.finish();
+}
+
+/// The points of the first message.
+std::size_t read_recording(const std::filesystem::path& path) {
+  const auto bag = open_bag(path);
+  const BagTopic& topic = bag->topics().front();
+  return read_point_positions(bag->message(0, 0), topic.type, topic.encoding,
+                              Eigen::Vector3d::Zero(), path.string())
+      .points.size();
+}
+
 }  // namespace
 
 TEST_CASE("a limit of memory is noticed") {
@@ -139,6 +186,24 @@ TEST_CASE("readers of scans need a bounded number of times their file") {
   check_memory(bomb, 450, [&] { (void)read_cloud(bomb); });
   check_cloud("lies.pcd", 450, pcd("1 1 1", "I I I", kPoints + 1, "binary_compressed") + packed);
   check_cloud("far.pcd", 450, pcd("1 1 1", "I I I", 2000000000, "binary_compressed") + packed);
+}
+
+TEST_CASE("readers of recordings need a bounded number of times what their chunks unpack to") {
+  const test::TemporaryFolder folder;
+  constexpr std::uint32_t kPoints = 5'000'000, kMany = 20'000'000;
+  const auto check = [&](const std::string& name, const std::string& content, double unpacked) {
+    const auto file = folder.write(name, content);
+    check_memory(file, 8.0 * unpacked / static_cast<double>(content.size()),
+                 [&] { (void)read_recording(file); });
+    return file;
+  };
+  CHECK(read_recording(check("bomb.mcap", mcap_bomb(kPoints, 3), 3.0 * kPoints)) == kPoints);
+  CHECK(read_recording(check("bomb.bag", ros1_bomb(kPoints, 3), 3.0 * kPoints)) == kPoints);
+  // Points that share their bytes, and more than a scan has, are refused.
+  for (const auto& file : {check("shared.mcap", mcap_bomb(3 * kPoints, 1), 3.0 * kPoints),
+                           check("map.mcap", mcap_bomb(kMany, 3), 3.0 * kMany)}) {
+    CHECK_THROWS_AS(read_recording(file), DataError);
+  }
 }
 
 TEST_CASE("readers of what stands beside scans need a bounded number of times their file") {

@@ -181,6 +181,8 @@ def manifests():
                  "disk_limit_gib": 2, "parameters": [{**parameter, "unit": "m", "minimum": 1,
                                                       "maximum": 2.5, "source": "here"}]}
     yield True, {**base, "parameters": [{**parameter, "default": "x", "choices": ["x", "y"]}]}
+    yield True, {**base, "version": 1}
+    yield False, {**base, "version": 1.5}
     for key in base:
         yield False, {k: v for k, v in base.items() if k != key}
     for key, value in [("name", "a/b"), ("name", ""), ("sentence", 1), ("online", "yes"),

@@ -8,11 +8,14 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <system_error>
 
 #include "core/error.h"
 #include "core/files/descriptor_io.h"
 #include "core/files/files.h"
+#include "core/sampling.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -24,6 +27,14 @@ constexpr std::size_t kRowsPerPiece = 65536;
 
 std::string tile_name(const std::array<std::int64_t, 2>& place) {
   return "tile_" + std::to_string(place[0]) + "_" + std::to_string(place[1]);
+}
+
+/// The tile of a position in the upright world; nothing where neighbours are not told apart.
+std::optional<std::array<std::int64_t, 2>> tile_of(const Eigen::Vector3d& upright, double size_m) {
+  const double x = std::floor(upright.x() / size_m), y = std::floor(upright.y() / size_m);
+  constexpr double kFarthest = 1e15;
+  if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest)) return std::nullopt;
+  return {{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)}};
 }
 
 ordered_json vector_json(const Eigen::Vector3d& vector) {
@@ -40,16 +51,33 @@ TileSink::TileSink(const std::filesystem::path& folder, const RecordLayout& layo
 }
 
 TileSink::Place TileSink::place_of(const Eigen::Vector3d& world) const {
-  const Eigen::Vector3d upright = tiling_.T_upright_world * world;
-  const double x = std::floor(upright.x() / tiling_.size_m);
-  const double y = std::floor(upright.y() / tiling_.size_m);
-  constexpr double kFarthest = 1e15;  // Beyond it neighbours are not told apart.
-  if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest)) {
-    throw DataError(folder_.path().string() + ": a point lies at " + number_text(world.x()) + ", " +
-                    number_text(world.y()) + ", " + number_text(world.z()) +
-                    " m, where there are no tiles. Nothing was written; look at the poses.");
+  if (const auto place = tile_of(tiling_.T_upright_world * world, tiling_.size_m)) return *place;
+  throw DataError(folder_.path().string() + ": a point lies at " + number_text(world.x()) + ", " +
+                  number_text(world.y()) + ", " + number_text(world.z()) +
+                  " m, where there are no tiles. Nothing was written; look at the poses.");
+}
+
+void check_tile_count(const Sequence& sequence, double size_m,
+                      const std::optional<RangeLimits>& kept) {
+  constexpr std::size_t kScans = 10;
+  std::set<std::array<std::int64_t, 2>> tiles;
+  const std::size_t count = sequence.scans->size();
+  for (const std::size_t i : evenly_spread(count, kScans)) {
+    const Scan scan = sequence.scans->load(i);
+    const Pose T_upright_sensor = sequence.upright_frame() * scan.T_world_sensor;
+    for (const Eigen::Vector3f& point : scan.points) {
+      if (kept && !kept->contains(point.cast<double>().norm())) continue;
+      if (const auto tile = tile_of(T_upright_sensor * point.cast<double>(), size_m)) {
+        tiles.insert(*tile);
+      }
+    }
+    if (tiles.size() <= TileSink::kMostTiles) continue;
+    throw UsageError("--tiles: the points of " + counted_text(std::min(count, kScans), "scan") +
+                     " of '" + sequence.name + "' lie in more than " +
+                     grouped_text(TileSink::kMostTiles) + " tiles of " + number_text(size_m) +
+                     " m, which is the limit of a map. Choose larger tiles, such as --tiles 100 "
+                     "(metres).");
   }
-  return {static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
 }
 
 std::filesystem::path TileSink::spool_of(const Place& place) const {

@@ -4,11 +4,14 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmark/clean/outputs/output_folder.h"
 #include "benchmark/clean/outputs/row_sink.h"
+#include "core/scan/range_limits.h"
+#include "datasets/sequence.h"
 
 namespace raymoval {
 
@@ -21,6 +24,13 @@ struct Tiling {
   RecordWriting writing = {};
   std::size_t most_waiting = std::size_t{32} << 20;  ///< Bytes of rows that wait in memory.
 };
+
+/// Looks for too many tiles before the work, in a few scans.
+/// @param size_m of a tile, or of a voxel if that is larger
+/// @param kept ranges that are in the map
+/// @throws UsageError if these scans alone fill more than `TileSink::kMostTiles`
+void check_tile_count(const Sequence& sequence, double size_m,
+                      const std::optional<RangeLimits>& kept);
 
 /// Cuts rows into square tiles, each a file in a folder, with a manifest.json that lists them. The
 /// tile of a point is floor(x / size), floor(y / size) of its position in the upright world, so

@@ -8,13 +8,13 @@
 #include "benchmark/clean/clean_outputs.h"
 #include "benchmark/clean/clean_process.h"
 #include "benchmark/clean/clean_summary.h"
+#include "benchmark/clean/outputs/tile_sink.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/method_run.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_writer.h"
-#include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
@@ -28,14 +28,14 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labelled, labels, scans, page, picture;
-  std::string voxel, tiles, tile_format, intensity_scale, memory_limit;
+  std::string voxel, tiles, tile_format, intensity_scale;
   std::string method = "raymoval_plus:offline";
   std::vector<std::string> settings;
   SequenceFlags reading;
   bool confidence = false;
   bool overwrite = false;
   bool force = false;
-  bool in_process = false;
+  ProcessFlags process;
   WorkFlags work;
 };
 
@@ -174,14 +174,6 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   return sequence;
 }
 
-/// The words of this command with the option that makes the child do the work itself.
-std::vector<std::string> arguments_of_child() {
-  std::vector<std::string> arguments = program_arguments();
-  const auto command = std::find(arguments.begin(), arguments.end(), "clean");
-  arguments.insert(command == arguments.end() ? command : command + 1, "--in-process");
-  return arguments;
-}
-
 /// The arguments that say how the sequence is read, so that its cleaned scans are read in the same
 /// way. @param own_poses leaves out those that are about poses
 std::string reading_arguments(bool own_poses) {
@@ -254,6 +246,9 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
   for (const std::string& line : sequence.losses) print_warning(line);
   CleaningFacts facts{paths, RangeCut{flags.reading.options().range_m}};
+  if (paths.tiled) {
+    check_tile_count(sequence, std::max(writing.tile_size, writing.voxel_size), facts.range.kept);
+  }
   facts.report = check_data(sequence, flags.path, flags.force,
                             {flags.work.thread_count(), &progress, &interrupt_flag()});
   progress.set_context(method.full_name() + " on " + sequence.name);
@@ -274,11 +269,9 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
 
 ExitCode clean(const CleanFlags& flags) {
   const CleanPaths paths = checked_paths(flags);
-  const double limit = flags.memory_limit.empty()
-                           ? usual_memory_limit_mib()
-                           : parse_memory_mib("--memory-limit", flags.memory_limit);
-  if (!flags.in_process) {
-    return clean_apart(arguments_of_child(), paths, limit, interrupt_flag());
+  const double limit = flags.process.memory_limit_mib();
+  if (!flags.process.in_process) {
+    return clean_apart(ProcessFlags::child_arguments("clean"), paths, limit, interrupt_flag());
   }
   // As the child of `clean_apart` it takes what it has started with it when that ends.
   if (is_family_head()) end_family_with_parent();
@@ -337,14 +330,9 @@ void add_clean_work(CommandOptions& options, CleanFlags& flags) {
   options.set_sentence("--range",
                        "Distance from the sensor in metres. Points outside it are in no output, "
                        "but the method sees them");
-  options.add(
-      "--memory-limit", "SIZE", flags.memory_limit,
-      "The memory it may use, in MiB or with a unit such as 2GB (default: nine tenths of the "
-      "machine's)");
   options.add_flag("--force", flags.force,
                    "Clean even if the data has mistakes that make the map wrong");
-  options.add_flag("--in-process", flags.in_process,
-                   "Work in this process, for a debugger; there is then no limit on memory");
+  flags.process.add_to(options);
   options.add_flag("--overwrite", flags.overwrite, "Replace outputs that exist already");
   flags.work.add_to(options);
 }

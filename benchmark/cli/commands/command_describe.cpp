@@ -57,7 +57,14 @@ struct Description {
   std::vector<bool> acts = {};
   /// What a method's confidence is made of; empty: it has none. No value of a protocol.
   std::optional<std::string> confidence = std::nullopt;
+  std::vector<std::string> main_parameters = {};  ///< Empty: all.
+  std::string advice = {};
 };
+
+/// How the source of a value is called that its author chose.
+std::string source_text(const ParameterSpec& spec) {
+  return spec.notes.source.empty() ? "own choice" : spec.notes.source;
+}
 
 std::string range_text(const ParameterSpec& spec) {
   if (!spec.choices.empty()) return join(spec.choices, ", ");
@@ -91,7 +98,7 @@ TextTable parameter_table(const Description& description) {
                           {{parameter_text(spec.default_value)},
                            {notes.unit},
                            {range_text(spec)},
-                           {notes.source.empty() ? "ours" : notes.source},
+                           {source_text(spec)},
                            {sentence_of(description, i)}}});
   }
   return table;
@@ -105,16 +112,39 @@ std::string overrides_text(const MethodVariant& variant) {
   return parts.empty() ? "" : " (" + join(parts) + ")";
 }
 
-std::string parameter_lines(const Description& description) {
-  std::string text = description.parameters.empty() ? "" : "Parameters:\n";
-  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+/// Places of the parameters that are shown: the main ones first, then the others if `all`.
+std::vector<std::size_t> shown_parameters(const Description& description, bool all) {
+  const std::vector<std::string>& first = description.main_parameters;
+  std::vector<std::size_t> shown;
+  for (const std::string& name : first) {
+    const auto found = std::find_if(description.parameters.begin(), description.parameters.end(),
+                                    [&](const ParameterSpec& spec) { return spec.name == name; });
+    shown.push_back(static_cast<std::size_t>(found - description.parameters.begin()));
+  }
+  for (std::size_t i = 0; (all || first.empty()) && i < description.parameters.size(); ++i) {
+    const std::string& name = description.parameters[i].name;
+    if (std::find(first.begin(), first.end(), name) == first.end()) shown.push_back(i);
+  }
+  return shown;
+}
+
+std::string parameter_lines(const Description& description, bool all) {
+  const std::vector<std::size_t> shown = shown_parameters(description, all);
+  const std::size_t count = description.parameters.size();
+  std::string text = description.advice.empty() ? "" : description.advice + "\n";
+  if (shown.size() < count) {
+    text += "Main parameters (" + std::to_string(shown.size()) + " of " + std::to_string(count) +
+            "; --all shows all):\n";
+  } else if (count > 0) {
+    text += "Parameters:\n";
+  }
+  for (const std::size_t i : shown) {
     const ParameterSpec& spec = description.parameters[i];
     const std::string& unit = spec.notes.unit;
     text += "  " + spec.name + " = " + parameter_text(spec.default_value) +
             (unit.empty() ? "" : " " + unit);
     const std::string range = range_text(spec);
-    text += (range.empty() ? "" : "   [" + range + "]") + "   " +
-            (spec.notes.source.empty() ? "ours" : spec.notes.source) + "\n";
+    text += (range.empty() ? "" : "   [" + range + "]") + "   " + source_text(spec) + "\n";
     const std::string sentence = sentence_of(description, i);
     if (!sentence.empty()) text += "      " + sentence + "\n";
   }
@@ -134,6 +164,8 @@ Description describe_method(const MethodRegistry& registry, const std::string& n
   const MethodEntry& entry = *method.entry;
   Description description{entry.name,  entry.sentence, entry.source,    entry.version,
                           entry.notes, entry.variants, entry.parameters};
+  description.main_parameters = entry.main_parameters;
+  description.advice = entry.advice;
   description.confidence = entry.confidence.empty() ? "" : entry.confidence.sentence;
   if (name_and_variant.find(':') == std::string::npos) return description;
   description.name = method.full_name();
@@ -155,7 +187,7 @@ Description describe_protocol(const ProtocolEntry& entry) {
   return description;
 }
 
-std::string description_text(const Description& description) {
+std::string description_text(const Description& description, bool all) {
   std::string text =
       description.name + " (version " + description.version + ")\n" + description.sentence + "\n";
   if (!description.source.empty()) text += "Source: " + description.source + "\n";
@@ -165,7 +197,7 @@ std::string description_text(const Description& description) {
     text += "  " + variant.name + (variant.online ? " [online]" : " [offline]") + ": " +
             variant.sentence + overrides_text(variant) + "\n";
   }
-  text += parameter_lines(description);
+  text += parameter_lines(description, all);
   if (!description.notes.empty()) text += "Notes:\n";
   for (const std::string& note : description.notes) text += "  - " + note + "\n";
   return text;
@@ -215,6 +247,7 @@ struct DescribeFlags {
   std::string name;
   bool markdown = false;
   bool json = false;
+  bool all = false;
 };
 
 /// A name that is both a method's and a protocol's means the method.
@@ -255,7 +288,8 @@ ExitCode describe(const DescribeFlags& flags) {
   if (flags.json) {
     print(description_json(description));
   } else {
-    print(flags.markdown ? description_markdown(description) : description_text(description));
+    print(flags.markdown ? description_markdown(description)
+                         : description_text(description, flags.all));
     if (is_also_protocol(flags.name)) {
       print("\nThe protocol of this name: raymoval describe " + std::string(kProtocolPrefix) +
             flags.name + "\n");
@@ -272,10 +306,12 @@ Command add_describe_command(CommandParser& program) {
       "describe", "Shows the source and the parameters of a method or protocol");
   options.add("name", "NAME", flags->name,
               "METHOD, METHOD:variant, external:MANIFEST, PROTOCOL or protocol:NAME");
-  options.add_flag("--markdown", flags->markdown, "Print Markdown");
-  options.add_flag("--json", flags->json, "Print JSON");
+  options.add_flag("--all", flags->all, "Show all parameters, not only the main ones");
+  options.add_flag("--markdown", flags->markdown, "Print Markdown, with all parameters");
+  options.add_flag("--json", flags->json, "Print JSON, with all parameters");
   options.set_footer(
-      "Examples:\n  raymoval describe raymoval:online\n  raymoval describe protocol:erasor --json");
+      "Examples:\n  raymoval describe raymoval:online\n  raymoval describe raymoval_plus --all\n  "
+      "raymoval describe protocol:erasor --json");
   return {options.name(), [flags] { return describe(*flags); }};
 }
 

@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "benchmark/cli/command.h"
+#include "benchmark/process/command_process.h"
 #include "benchmark/result/record_fields.h"
+#include "core/process/process_family.h"
 #include "core/text.h"
 #include "datasets/inspection/inspect.h"
 #include "datasets/open_sequence.h"
@@ -41,6 +43,7 @@ struct InspectFlags {
   std::string path;
   SequenceFlags reading;
   bool json = false, list = false;
+  ProcessFlags process;
   WorkFlags work;
 };
 
@@ -86,6 +89,18 @@ std::string check_list() {
   return text;
 }
 
+/// Untrusted data may make the child take much memory, or crash it.
+ExitCode inspect_apart(double limit_mib) {
+  try {
+    return run_command_apart(
+        ProcessFlags::child_arguments("inspect"),
+        {.doing = "inspecting", .less_memory = " Choose fewer --frames, or raise the limit."},
+        limit_mib, interrupt_flag());
+  } catch (const MethodError& error) {
+    throw InternalError(error.what());
+  }
+}
+
 ExitCode inspect_command(const InspectFlags& flags) {
   if (flags.list) {
     print(check_list());
@@ -95,6 +110,9 @@ ExitCode inspect_command(const InspectFlags& flags) {
     throw UsageError("inspect what? Name a sequence folder, ROOT:05, or a scene.");
   }
   check_not_both(flags.path);
+  const double limit = flags.process.memory_limit_mib();
+  if (!flags.process.in_process) return inspect_apart(limit);
+  if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
@@ -113,6 +131,7 @@ Command add_inspect_command(CommandParser& program) {
   flags->reading.add_to(options);
   options.add_flag("--json", flags->json, "Print the findings and the measured numbers as JSON");
   options.add_flag("--list", flags->list, "List the checks, and what to do about what each finds");
+  flags->process.add_to(options);
   flags->work.add_to(options);
   options.set_footer(
       "Each finding is one line: what is wrong, where, what was expected, and what to do. Then "

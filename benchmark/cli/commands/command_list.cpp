@@ -30,7 +30,7 @@ Lines method_lines(bool variants) {
     }
   }
   lines.emplace_back("external:MANIFEST",
-                     "A program of yours in any language, see methods/README.md.");
+                     "A program of yours in any language, see docs/your-method.md.");
   return lines;
 }
 

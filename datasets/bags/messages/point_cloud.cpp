@@ -64,6 +64,34 @@ PointField read_field(MessageReader& reader) {
   return field;
 }
 
+void check_size(std::uint64_t points, const MessageReader& reader) {
+  if (points <= kMostScanPoints) return;
+  reader.fail("it announces " + grouped_text(points) + " points; a scan has at most " +
+              grouped_text(kMostScanPoints) +
+              ". The message is damaged or holds a whole map: choose a --topic with scans.");
+}
+
+/// Without this a small message could announce many points that share their bytes.
+void check_overlaps(const PointsMessage& cloud, const MessageReader& reader) {
+  constexpr std::uint64_t kMostUses = 4;  // Drivers name a colour twice, as rgb and rgba.
+  std::uint64_t bytes = 0;
+  for (const PointField& field : cloud.layout.fields) bytes += field.bytes();
+  const auto is_after = [&](const char* one, const char* other) {
+    const PointField *a = cloud.layout.find({one}), *b = cloud.layout.find({other});
+    return a == nullptr || b == nullptr || a->offset + a->bytes() <= b->offset;
+  };
+  for (const auto& [one, other] : {std::pair("x", "y"), std::pair("y", "z"), std::pair("x", "z")}) {
+    if (is_after(one, other) || is_after(other, one)) continue;
+    reader.fail(std::string("the fields '") + one + "' and '" + other +
+                "' share bytes of a point; expected bytes of their own. Correct the offsets where "
+                "the message is published.");
+  }
+  if (bytes <= kMostUses * cloud.point_step) return;
+  reader.fail("the fields take " + grouped_text(bytes) + " bytes of a point, but point_step is " +
+              grouped_text(cloud.point_step) + "; expected at most four times as much. Correct " +
+              "the offsets where the message is published.");
+}
+
 void check_fields(const PointsMessage& cloud, const MessageReader& reader) {
   for (const PointField& field : cloud.layout.fields) {
     if (field.offset + field.bytes() <= cloud.point_step) continue;
@@ -71,6 +99,7 @@ void check_fields(const PointsMessage& cloud, const MessageReader& reader) {
                 grouped_text(field.offset + field.bytes()) + " of a point, but point_step is " +
                 grouped_text(cloud.point_step) + "; the publisher's layout contradicts itself.");
   }
+  check_overlaps(cloud, reader);
 }
 
 /// Takes what stands in the data for its layout. `row_step` matters only where there are several
@@ -102,6 +131,8 @@ PointsMessage parse_cloud_head(MessageReader& reader) {
   cloud.swapped = reader.number<std::uint8_t>("is_bigendian") != 0;
   cloud.point_step = cloud.layout.row_bytes = reader.number<std::uint32_t>("point_step");
   cloud.row_step = reader.number<std::uint32_t>("row_step");
+  check_size(cloud.size(), reader);
+  if (cloud.size() > 0) check_fields(cloud, reader);
   return cloud;
 }
 
@@ -111,7 +142,6 @@ PointsMessage parse_point_cloud(MessageReader& reader) {
   cloud.points_begin = reader.position();
   reader.skip(data_bytes, "data");
   reader.number<std::uint8_t>("is_dense");
-  check_fields(cloud, reader);
   check_data(cloud, data_bytes, reader);
   return cloud;
 }
@@ -134,6 +164,7 @@ PointsMessage parse_livox(MessageReader& reader) {
   reader.skip(4, "lidar_id and rsvd");
   // How many points there are is the length of the sequence; `point_num` only repeats it.
   const std::uint32_t count = reader.count("points", kPointBytes);
+  check_size(count, reader);
   cloud.layout = livox_layout();
   cloud.swapped = reader.big_endian();
   cloud.height = 1;
@@ -188,6 +219,7 @@ PointsHead read_points_head(std::string_view bytes, const std::string& type,
   PointsHead head{read_message_header(reader), 0, livox_layout()};
   reader.number<std::uint64_t>("timebase");
   head.size = reader.number<std::uint32_t>("point_num");
+  check_size(head.size, reader);
   return head;
 }
 

@@ -16,6 +16,9 @@ namespace raymoval {
 /// driver.
 bool has_points(const std::string& type);
 
+/// A message with more points than this is refused: no sensor gives so many in a scan.
+inline constexpr std::uint64_t kMostScanPoints = std::uint64_t{1} << 24;
+
 /// What a message with points begins with.
 struct PointsHead {
   MessageHeader header;
@@ -23,7 +26,8 @@ struct PointsHead {
   RecordLayout layout;     ///< Of what `read_points` gives.
 };
 /// @param bytes the message, or its first `kHeaderBytes` bytes
-/// @throws DataError naming the field that is cut, UsageError if `has_points` does not hold
+/// @throws DataError naming the field that is cut or does not fit its point, or for too many
+///   points; UsageError if `has_points` does not hold
 PointsHead read_points_head(std::string_view bytes, const std::string& type,
                             MessageEncoding encoding, const std::string& where);
 
@@ -33,7 +37,7 @@ PointsHead read_points_head(std::string_view bytes, const std::string& type,
 ///   rows is left out.
 /// - CustomMsg: offset_time (nanoseconds from the stamp on), x, y, z, reflectivity, tag and line.
 /// @param where begins messages: "drive.bag: /points, message 12"
-/// @throws DataError naming the field that is cut, has an unknown type or does not fit its point;
+/// @throws DataError as `read_points_head`, and naming the field that has an unknown type;
 ///   UsageError if `has_points` does not hold
 PointRecords read_points(std::string_view bytes, const std::string& type, MessageEncoding encoding,
                          const std::string& where);

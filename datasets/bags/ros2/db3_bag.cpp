@@ -14,8 +14,9 @@ namespace raymoval {
 namespace {
 
 constexpr int kStepsAtOnce = 1000;
-/// What reading the list of tables takes at most.
-constexpr std::int64_t kStepsOfSchema = 5'000'000;
+/// What reading the list of tables takes at most, at ten steps a table: its time grows with the
+/// square of their number, and recordings have fewer than ten.
+constexpr std::int64_t kStepsOfSchema = 10'000;
 constexpr std::int64_t kMostValueBytes = std::int64_t{1} << 30;
 
 int count_steps(void* left) {
@@ -90,9 +91,11 @@ void SqliteDatabase::fail(int code) const {
                           "). Check its rights, and that its disk or share answers.");
   }
   if (kind == SQLITE_INTERRUPT) {
-    throw DataError(path_.string() +
-                    ": reading it takes more steps than its size explains; the database is damaged "
-                    "or built to hang. Record or copy it again.");
+    throw DataError(
+        path_.string() +
+        ": reading it takes more steps than a recording of its size; it has far too many "
+        "tables, or is damaged. Name a .db3 that `ros2 bag record` wrote, or copy it "
+        "again.");
   }
   throw DataError(path_.string() + ": the database cannot be read (" + reason +
                   "); it is damaged or cut. Copy it again, or save what is left by `sqlite3 FILE "
@@ -179,6 +182,7 @@ bool is_cut(const BagFile& file, DamageNotes& damage) {
 Db3Bag::Db3Bag(const std::filesystem::path& path)
     : file_((check_nothing_beside(path), path)), database_(path, is_cut(file_, damage_)) {
   check_tables();
+  database_.allow_steps(10'000'000 + 4 * static_cast<std::int64_t>(file_.size()));
   read_topics();
   const std::string damage = damage_in([&] { read_messages(); });
   if (!damage.empty()) damage_.add(damage);
@@ -213,7 +217,6 @@ void Db3Bag::read_topics() {
 }
 
 void Db3Bag::read_messages() {
-  database_.allow_steps(10'000'000 + 4 * static_cast<std::int64_t>(file_.size()));
   // No index is used, for in a cut file it may be what is missing.
   SqliteStatement rows(database_,
                        "SELECT rowid, topic_id, timestamp, CASE typeof(data) WHEN 'blob' THEN "

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Removes what stands in voxels that other scans look through.
 
-Runs in a working folder that raymoval fills (see methods/README.md):
+Runs in a working folder that raymoval fills (see docs/your-method.md):
 velodyne/NNNNNN.bin, poses.txt, parameters.json; answers with predictions/NNNNNN.label.
 """
 import json

@@ -3,13 +3,14 @@
 
 #include "core/error.h"
 #include "datasets/bags/mcap/mcap_bag.h"
-#include "datasets/bags/mcap/mcap_file.h"
+#include "tests/datasets/bags/mcap_records.h"
 #include "tests/datasets/bags/recordings.h"
 #include "tests/datasets/temporary_folder.h"
 
 namespace raymoval {
 namespace {
 
+using namespace test::mcap;
 using test::TemporaryFolder;
 
 TEST_CASE("MCAP that another program wrote is read, whatever it leaves out", "[bags][mcap]") {
@@ -54,46 +55,6 @@ TEST_CASE("A false byte in a MCAP file never gives a message that was not publis
       });
     });
   }
-}
-
-/// A number with its lowest byte first.
-template <class Number>
-std::string number(Number value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-
-std::string text(std::string_view text) {
-  return number(static_cast<std::uint32_t>(text.size())) + std::string(text);
-}
-
-std::string record(McapOp op, const std::string& content) {
-  return number(op) + number(std::uint64_t{content.size()}) + content;
-}
-
-/// A file of records, without a summary.
-std::string mcap_of(const std::vector<std::pair<McapOp, std::string>>& records) {
-  std::string bytes(kMcapMagic);
-  for (const auto& [op, content] : records) bytes += record(op, content);
-  return bytes + record(McapOp::kFooter, std::string(20, '\0')) + std::string(kMcapMagic);
-}
-
-std::string schema(std::uint16_t id, std::string_view name) {
-  return number(id) + text(name) + text("ros2msg") + text("");
-}
-
-std::string channel(std::uint16_t id, std::uint16_t of, std::string_view topic,
-                    std::string_view encoding) {
-  return number(id) + number(of) + text(topic) + text(encoding) + text("");
-}
-
-std::string message(std::uint16_t of, std::uint64_t time, std::string_view content) {
-  return number(of) + number(std::uint32_t{0}) + number(time) + number(time) + std::string(content);
-}
-
-std::string chunk(std::string_view compression, std::uint64_t unpacked, std::uint32_t crc,
-                  std::string_view packed) {
-  return number(std::uint64_t{0}) + number(std::uint64_t{0}) + number(unpacked) + number(crc) +
-         text(compression) + number(std::uint64_t{packed.size()}) + std::string(packed);
 }
 
 TEST_CASE("Records of unknown kinds are passed over, and one of kind 0 is damage", "[bags][mcap]") {

@@ -163,12 +163,50 @@ TEST_CASE("A cloud that contradicts itself is refused with the reason", "[bags]"
              {"4,294,967,295"});
   check_says(
       refused([](CloudHead& head) { head.width = head.height = head.row_step = 0xFFFFFFFF; }),
-      {"but data has 70"});
+      {"message 3", "a scan has at most 16,777,216"});
   check_says(refused([](CloudHead& head) {
                head.point_step = 0;
                head.fields.clear();
              }),
              {"point_step is 0"});
+}
+
+TEST_CASE("A small message cannot announce many points", "[bags]") {
+  // All of them would be the same bytes.
+  CloudHead head;
+  head.width = 70;
+  head.point_step = 1;
+  head.fields = {{"x", 0, 2}, {"y", 0, 2}, {"z", 0, 2}};
+  const auto said = [&] {
+    return refusal(cloud_message(MessageBytes(kRos1), head, padded_data()));
+  };
+  check_says(said(), {"message 3", "'x' and 'y' share bytes", "Correct the offsets"});
+  head.point_step = 6;
+  head.fields = {{"x", 2, 3}, {"y", 0, 3}, {"z", 3, 3}};
+  check_says(said(), {"'x' and 'z' share bytes"});
+  head.fields = {{"x", 4, 3}, {"y", 2, 3}, {"z", 0, 3}, {"all", 0, 2, 6}, {"rgb", 0, 2, 6}};
+  head.width = 11;
+  CHECK(points_of(cloud_message(MessageBytes(kRos1), head, padded_data())).size() == 11);
+  head.fields.insert(head.fields.end(), 10, {"more", 0, 2, 6});
+  check_says(said(), {"take 78 bytes of a point", "point_step is 6"});
+}
+
+TEST_CASE("A message with more points than a scan has is refused from its head on", "[bags]") {
+  CloudHead head;
+  for (const std::uint64_t points : {kMostScanPoints, kMostScanPoints + 1}) {
+    head.width = static_cast<std::uint32_t>(points);
+    MessageBytes livox(kRos1);
+    livox.header(1, 5, "livox").number(std::uint64_t{1}).u32(head.width);
+    const std::string cloud = cloud_message(MessageBytes(kRos1), head, "");
+    for (const auto& [message, type] : {std::pair(cloud, kCloud), {livox.bytes(), kLivox}}) {
+      const auto read = [&] { return read_points_head(message, type, kRos1, "m").size; };
+      if (points == kMostScanPoints) {
+        CHECK(read() == points);
+      } else {
+        check_says(message_of<DataError>(read), {"16,777,217 points", "--topic"});
+      }
+    }
+  }
 }
 
 TEST_CASE("A message that is cut anywhere says so with its field", "[bags]") {

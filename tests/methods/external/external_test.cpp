@@ -261,6 +261,9 @@ TEST_CASE("an external method is configured as others are, under the manifest's 
   CHECK(copy.entry->parameters.at(0).notes.unit == "m");
   CHECK(MethodRegistry::built_in().configure(copy.address()).entry->version == copy.entry->version);
   CHECK(MethodRegistry::built_in().configure("raymoval").address() == "raymoval:offline");
+  const auto numbered = f.here.write("numbered.json", R"({"name": "own", "sentence": "s",
+      "version": 2, "online": true, "command": ["true"]})");
+  CHECK_THAT(Fixture::configured(numbered.string()).entry->version, Catch::StartsWith("2+"));
 }
 
 TEST_CASE("a manifest that is not right is refused with the remedy") {

@@ -20,7 +20,8 @@ struct Claims {
   std::vector<Claim> about;  ///< In the order of `changes`.
 };
 
-/// What each variant of each method promises; a variant has one line.
+/// What each variant of each method promises; those of a variant are a line of claims.cpp, or
+/// those that every method must hold.
 const std::vector<Claims>& claims();
 
 }  // namespace raymoval::toy
