@@ -31,7 +31,8 @@ void check_no_pose_settings(const SequenceSettings& settings, const std::filesys
   throw UsageError(folder.string() + ": " + given + why + "Leave it out.");
 }
 
-Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options,
+                         const OpenContext& context) {
   const std::filesystem::path folder = path;
   SequenceSettings defaults;
   defaults.label_rule = {"dynamicmap", {1}, {}};
@@ -41,12 +42,17 @@ Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, cons
   const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
   Sequence sequence = make_sequence(settings, dynamicmap_layout(), chosen.range);
   std::vector<FrameEntry> entries;
-  std::vector<std::optional<Pose>> poses;
-  for (const NumberedFile& file : chosen.files) {
+  std::vector<std::optional<Pose>> poses(chosen.files.size(), Pose::Identity());
+  if (settings.skip_bad_scans) {
+    drop_bad_files(chosen.files, {}, context, poses, sequence.losses);
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!poses[i]) continue;
+    const NumberedFile& file = chosen.files[i];
     const double time = static_cast<double>(file.number - files.front().number) *
                         settings.scan_period_s.value_or(kUsualScanPeriod);
     entries.push_back({file.path, "", file.path.stem().string(), time, read_viewpoint(file.path)});
-    poses.emplace_back(entries.back().T_world_sensor);
+    poses[i] = entries.back().T_world_sensor;
     sequence.stamps.push_back(from_seconds(time));
   }
 
@@ -59,6 +65,7 @@ Sequence open_dynamicmap(Layout::Path path, const SequenceOptions& options, cons
       std::make_shared<FileScanSource>(std::move(entries), std::move(traits), settings.sensor);
   sequence.scans = source;
   sequence.records = source;
+  std::erase(poses, std::nullopt);
   sequence.motion = motion_along(sequence.stamps, poses);
   return sequence;
 }

@@ -45,11 +45,10 @@ std::vector<NumberedFile> scan_files(const fs::path& folder, const std::vector<f
   return files;
 }
 
-/// The time of each scan: a line of times.txt or timestamps.txt for each, or the names of the
-/// files. KITTI's raw data have timestamps.txt beside their folder `data`.
-/// @return nothing in it if scans have no times
-StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>& files,
-                        std::vector<fs::path>& input_files) {
+/// The time of each scan: a line of times.txt or timestamps.txt for each. KITTI's raw data have
+/// timestamps.txt beside their folder `data`. @return nothing in it if there is no such file
+StampColumn listed_stamps(const fs::path& folder, const std::vector<NumberedFile>& files,
+                          std::vector<fs::path>& input_files) {
   for (const fs::path& path :
        {folder / "times.txt", folder / "timestamps.txt",
         folder.filename() == "data" ? folder.parent_path() / "timestamps.txt" : folder / "."}) {
@@ -61,13 +60,40 @@ StampColumn scan_stamps(const fs::path& folder, const std::vector<NumberedFile>&
                     ", but " + folder.string() + " holds " + counted_text(files.size(), "scan") +
                     "; expected a time for each scan in the order of the names.");
   }
+  return {};
+}
+
+/// Puts scans whose names are times in the order of these.
+/// @param poses null for a sensor that stands
+/// @return the times; nothing in it if names are no times
+StampColumn order_by_names(std::vector<NumberedFile>& files, const PoseFile* poses,
+                           Nanoseconds time_offset, std::vector<std::string>& notes) {
   std::vector<std::string> stems;
   for (const NumberedFile& file : files) stems.push_back(cloud_stem(file.path));
-  StampColumn column;
-  column.stamps = stamps_in_names(stems).value_or(std::vector<Nanoseconds>());
-  for (const Nanoseconds stamp : column.stamps) {
-    column.since_first.push_back(to_seconds(stamp - column.stamps.front()));
+  std::optional<std::pair<Nanoseconds, Nanoseconds>> span;
+  if (poses != nullptr && poses->stamped()) {
+    span.emplace(*poses->rows.front().stamp - time_offset, *poses->rows.back().stamp - time_offset);
   }
+  const auto named = stamps_in_names(stems, span);
+  if (!named) return {};
+  if (!named->note.empty()) notes.push_back(named->note);
+  std::vector<std::pair<Nanoseconds, fs::path>> order;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    order.emplace_back(named->stamps[i], std::move(files[i].path));
+  }
+  std::sort(order.begin(), order.end());
+  StampColumn column;
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Nanoseconds stamp = order[i].first;
+    files[i].path = std::move(order[i].second);
+    column.stamps.push_back(stamp);
+    column.since_first.push_back(to_seconds(stamp - column.stamps.front()));
+    inside += !span || (stamp >= span->first && stamp <= span->second) ? 1 : 0;
+  }
+  // Times since nobody knows when are not those of the poses, if these are other ones.
+  const bool other_clock = !named->since_1970 && 2 * inside < files.size();
+  if (other_clock && poses->rows.size() == files.size()) return {};
   return column;
 }
 
@@ -81,7 +107,10 @@ ScanKeys keys_of_files(const std::vector<NumberedFile>& chosen,
                 " to " + all.back().path.filename().string();
   for (const NumberedFile& file : chosen) {
     keys.add(static_cast<std::size_t>(file.number), times, period_s);
+    const auto frame = parse_number<long>(cloud_stem(file.path));
+    if (frame) keys.frames.push_back(*frame);
   }
+  if (keys.frames.size() != chosen.size()) keys.frames.clear();
   return keys;
 }
 
@@ -101,20 +130,27 @@ PosePlaceFound find_poses(const fs::path& folder, const SequenceSettings& settin
   return found;
 }
 
-Sequence open_files(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+Sequence open_files(Layout::Path path, const SequenceOptions& options, const OpenContext& context) {
   const fs::path folder = path;
   const SequenceSettings settings = read_settings(folder, options, {});
   std::vector<fs::path> input_files;
   const PosePlaceFound place = find_poses(folder, settings, input_files);
-  const auto files = scan_files(folder, input_files);
-  const StampColumn times = scan_stamps(folder, files, input_files);
+  auto files = scan_files(folder, input_files);
+  std::optional<PoseFile> file;
+  if (place.file) file = read_pose_file(*place.file, {settings.pose_format});
+  std::vector<std::string> notes;
+  StampColumn times =
+      order_by_names(files, file ? &*file : nullptr, place.settings.time_offset, notes);
+  StampColumn listed = listed_stamps(folder, files, input_files);
+  if (!listed.stamps.empty()) times = std::move(listed);
   const ChosenFrames chosen = choose_frames(files, settings.frames, folder.string());
   const ScanKeys keys =
       keys_of_files(chosen.files, files, times, settings.scan_period_s.value_or(kUsualScanPeriod));
-  std::optional<PoseFile> file;
-  if (place.file) file = read_pose_file(*place.file, {settings.pose_format});
-  const ScanPoses poses =
+  ScanPoses poses =
       file ? scan_poses(*file, keys, place.settings) : standing_poses(keys, place.settings);
+  if (settings.skip_bad_scans) {
+    drop_bad_files(chosen.files, {settings.point_layout}, context, poses.poses, poses.losses);
+  }
 
   Sequence sequence = make_sequence(settings, files_layout(), chosen.range);
   std::vector<FrameEntry> entries;
@@ -127,13 +163,13 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
     sequence.stamps.push_back(poses.stamps[i]);
   }
   sequence.motion = poses.motion;
-  sequence.notes = poses.notes;
+  sequence.notes = std::move(notes);
+  sequence.notes.insert(sequence.notes.end(), poses.notes.begin(), poses.notes.end());
   sequence.losses = poses.losses;
+  sequence.pose_gap = poses.gap;
   sequence.input_files.insert(sequence.input_files.end(), input_files.begin(), input_files.end());
   sequence.poses_file = file ? file->path.filename().string() : kStandingSensor;
-  if (find_label_files(folder / "labels", entries)) {
-    sequence.labels = std::make_shared<LabelFileSource>(entries);
-  }
+  add_label_files(folder / "labels", entries, sequence);
   FileScanSource::Traits traits;
   traits.point_frame = settings.points.value_or(PointFrame::kSensor);
   traits.reading.point_layout = settings.point_layout;

@@ -68,12 +68,13 @@ fs::path named_sensor(const std::string& path) {
                    join(there) + "; say which one, such as " + root + ":" + there.front() + ".");
 }
 
-Sequence open_helimos(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+Sequence open_helimos(Layout::Path path, const SequenceOptions& options,
+                      const OpenContext& context) {
   SemanticKittiDefaults defaults;
   defaults.label_rule.name = "helimos";
   defaults.label_rule.moving = {251, 252, 253, 254, 255, 256, 257, 258, 259};
   defaults.label_rule.ignored = {0};
-  Sequence sequence = open_semantickitti(named_sensor(path), options, defaults);
+  Sequence sequence = open_semantickitti(named_sensor(path), options, context, defaults);
   const Layout layout = helimos_layout();
   sequence.layout = layout.name;
   sequence.label_rule.class_names = layout.class_names;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "datasets/clouds/file_source.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
@@ -66,6 +69,16 @@ struct Layout {
 /// @param range as used, both ends set
 Sequence make_sequence(const SequenceSettings& settings, const Layout& layout,
                        const FrameRange& range);
+
+/// Takes the poses of scans whose files cannot be read away (see `drop_bad_scans`).
+void drop_bad_files(const std::vector<NumberedFile>& files, const RecordReading& reading,
+                    const OpenContext& context, std::vector<std::optional<Pose>>& poses,
+                    std::vector<std::string>& losses);
+
+/// Gives each frame its label file `folder`/NAME.label, and `sequence` these labels. Frames without
+/// one, or with an empty one, are ignored by its label rule; if all are, there are no labels.
+void add_label_files(const std::filesystem::path& folder, std::vector<FrameEntry>& frames,
+                     Sequence& sequence);
 
 // The layouts of this room besides those of SemanticKITTI and `street`.
 

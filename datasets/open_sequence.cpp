@@ -55,9 +55,9 @@ void check_not_part(const std::string& path, const SequenceOptions& options) {
 /// Says what is missing of a folder whose files are known, but are no sequence.
 void check_known_files(const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder)) {
-    // Both throw: a folder of recordings has no metadata.yaml, and LAZ is not read.
+    // Both throw: the files are no parts of one recording, or a format that is not read.
     if (if_whole([&] { return is_bag(entry); }) == true) (void)open_bag(folder);
-    if (entry.extension() == ".laz") (void)read_layout(entry);
+    if (!conversion_text(entry).empty()) (void)read_layout(entry);
   }
 }
 
@@ -83,6 +83,14 @@ void check_label_rule(const Sequence& sequence, const SequenceOptions& options) 
   }
   if (is_there(path)) {
     const std::string above = sequence_above(path);
+    if (!conversion_text(path).empty()) (void)read_layout(path);
+    if (above.empty() && !cloud_extension(path).empty()) {
+      throw DataError(
+          path +
+          ": is one cloud, expected a folder with a file for each scan, and their poses. If "
+          "the points of a merged map name their scan, PDAL splits it: pdal translate map.las "
+          "scan_#.las groupby --filters.groupby.dimension=PointSourceId.");
+    }
     if (above.empty()) throw DataError(path + ": is a file, expected a folder." + known_text());
     throw DataError(path + ": is a scan, expected the folder of its sequence: " + above + ".");
   }

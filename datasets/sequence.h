@@ -48,6 +48,7 @@ struct SequenceOptions {
   std::optional<std::string> pose_format;      ///< Name in the list of pose formats.
   std::optional<bool> deskew;                  ///< Whether motion within a scan is taken out.
   std::optional<std::string> point_time_unit;  ///< s, ms, us, ns, or a number of seconds.
+  bool skip_bad_scans = false;                 ///< Scans that cannot be read are left out.
 };
 
 /// How a simulated scene is generated that is not in the cache yet.
@@ -75,6 +76,8 @@ struct Sequence {
   /// Which scans of the data are not among `scans`, though they were asked for, in whole sentences:
   /// how many have no pose or no point.
   std::vector<std::string> losses = {};
+  /// If a quarter of the scans or more have no pose.
+  std::optional<PoseGap> pose_gap = std::nullopt;
   /// What of a recording cannot be read, in whole sentences: that it is cut.
   std::vector<std::string> damage = {};
   /// What else was read besides the scans and their labels: pose files, times, T_sensor, settings.

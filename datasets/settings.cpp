@@ -80,6 +80,7 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
       return parse_sensor_origin(file.text("sensor_origin"));
     });
   }
+  settings.skip_bad_scans = file.flag("skip_bad_scans", settings.skip_bad_scans);
   if (file.has("time_offset_s")) settings.time_offset_s = file.number("time_offset_s", 0.0);
   if (file.has("max_gap_s")) settings.max_gap_s = file.positive("max_gap_s", 1.0);
   if (file.has("points")) {
@@ -94,7 +95,7 @@ void apply_file(const std::filesystem::path& path, SequenceSettings& settings) {
       content, path.string(),
       "name source sensor up scan_period_s poses poses_are_lidar range_m labels "
       "drop_ego point_layout pose_format T_sensor sensor_origin time_offset_s max_gap_s points "
-      "deskew point_time_unit");
+      "deskew point_time_unit skip_bad_scans");
   settings.name = file.text("name", settings.name);
   settings.source = file.text("source", settings.source);
   if (file.has("sensor")) settings.sensor = sensor_value(file.text("sensor", ""));
@@ -227,6 +228,7 @@ PoseSettings pose_settings(const SequenceSettings& settings, const std::filesyst
 
 SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings settings) {
   if (options.frames) settings.frames = *options.frames;
+  settings.skip_bad_scans = settings.skip_bad_scans || options.skip_bad_scans;
   apply_pose_options(options, settings);
   if (options.range_m) settings.range_m = *options.range_m;
   if (options.sensor) settings.sensor = sensor_value(*options.sensor);

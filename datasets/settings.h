@@ -37,6 +37,7 @@ struct SequenceSettings {
   std::optional<PointFrame> points;
   bool deskew = false;
   std::optional<std::string> point_time_unit;
+  bool skip_bad_scans = false;
   std::vector<std::filesystem::path> input_files;  ///< Those that all of this was read from.
 };
 
@@ -44,7 +45,8 @@ struct SequenceSettings {
 /// name, source, sensor (a known sensor, or "estimated" or "" for none), point_layout, up, drop_ego
 /// (as `parse_ego_region`, or a number of metres), scan_period_s, poses, pose_format,
 /// poses_are_lidar, T_sensor, sensor_origin, time_offset_s, max_gap_s, points ("sensor" or
-/// "world"), deskew, point_time_unit, range_m {min, max}, labels {name, moving, ignored}.
+/// "world"), deskew, point_time_unit, skip_bad_scans, range_m {min, max}, labels {name, moving,
+/// ignored}.
 /// @param defaults what holds where neither says anything; a `name` in it stands above the file's
 /// @throws ConfigurationError for an unknown key (with the nearest known one) or an illegal value
 SequenceSettings read_settings(const std::filesystem::path& folder, const SequenceOptions& options,

@@ -185,7 +185,7 @@ std::vector<std::string> CleanOutputs::results() const {
   const std::vector<std::string>& empty = scans_->empty_scans();
   results.push_back("No point is left of " + counted_text(empty.size(), "scan") + " (" +
                     empty.front() + (empty.size() > 1 ? ", ..." : "") +
-                    "), which no reader takes: leave such scans out with --frames.");
+                    "), which some programs cannot read.");
   return results;
 }
 

@@ -109,6 +109,8 @@ const std::vector<ReadingOption>& reading_options() {
        "The fields of a point in .bin and .npy scans, such as \"x y z intensity ring:u2 t:f8\" "
        "(float32 where no type is given)",
        set_text<&Options::point_layout>},
+      {"skip-bad-scans", "", "Leave out scans that are truncated or cannot be read, and say which",
+       [](Options& o, Text, Text) { o.skip_bad_scans = true; }},
       {"name", "NAME", "The name of the sequence in the results", set_text<&Options::name>}};
   return list;
 }

@@ -95,11 +95,11 @@ void set_option(const std::string& key, const std::string& text, SequenceOptions
 
 SequenceRequest sequence_of(const json& item, Places& places, const std::string& where) {
   if (item.is_string()) return {sequence_path(item.get<std::string>(), places, where), {}};
-  const Fields object(
-      item, where,
-      "path name frames poses topic pose_topic label_rule range_m sensor up "
-      "drop_ego point_layout pose_format "
-      "T_sensor sensor_origin time_offset_s max_gap_s points deskew point_time_unit");
+  const Fields object(item, where,
+                      "path name frames poses topic pose_topic label_rule range_m sensor up "
+                      "drop_ego point_layout pose_format "
+                      "T_sensor sensor_origin time_offset_s max_gap_s points deskew "
+                      "point_time_unit skip_bad_scans");
   SequenceRequest request{sequence_path(object.text("path"), places, where), {}};
   SequenceOptions& options = request.options;
   for (const char* key :
@@ -116,6 +116,7 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   if (object.has("time_offset_s")) options.time_offset_s = object.number("time_offset_s", 0.0);
   if (object.has("max_gap_s")) options.max_gap_s = object.positive("max_gap_s", 1.0);
   if (object.has("deskew")) options.deskew = object.flag("deskew", false);
+  options.skip_bad_scans = object.flag("skip_bad_scans", false);
   if (const auto points = text_of(object, "points")) {
     options.points = parse_point_frame(object.place("points"), *points);
   }
@@ -325,6 +326,7 @@ ordered_json to_json(const SequenceRequest& place) {
   if (options.max_gap_s) add("max_gap_s", number_text(*options.max_gap_s));
   if (options.points) add("points", *options.points == PointFrame::kWorld ? "world" : "sensor");
   if (options.deskew) add("deskew", *options.deskew ? "true" : "false");
+  if (options.skip_bad_scans) add("skip_bad_scans", "true");
   if (!options.range_m) return json;
   add("range_min", number_text(options.range_m->min));  // A text: the limit may be infinite.
   add("range_max", number_text(options.range_m->max));

@@ -21,6 +21,7 @@
 #include "datasets/bags/messages/point_cloud.h"
 #include "datasets/bags/messages/pose_messages.h"
 #include "datasets/clouds/frames.h"
+#include "datasets/clouds/returns.h"
 #include "datasets/records/point_records.h"
 #include "datasets/settings.h"
 #include "datasets/trajectories/pose_file.h"
@@ -237,7 +238,20 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   found.poses.notes = std::move(motion.notes);
   found.poses.losses = std::move(motion.losses);
   take(found.poses.losses, std::move(looked_up.losses));
+  found.poses.gap = std::move(looked_up.gap);
   return found;
+}
+
+/// Takes the poses of messages whose points cannot be read away.
+void drop_bad_messages(const Bag& bag, std::size_t topic, const ScanHeads& heads,
+                       const std::atomic<bool>* cancel, ScanPoses& poses) {
+  const auto name = [&](std::size_t i) { return "message " + std::to_string(heads.messages[i]); };
+  const auto read = [&](std::size_t i) {
+    const BagTopic& of = bag.topics()[topic];
+    (void)read_points(bag.message(topic, heads.messages[i]), of.type, of.encoding,
+                      message_place(bag, topic, heads.messages[i]));
+  };
+  drop_bad_scans(poses.poses, name, read, cancel, poses.losses);
 }
 
 Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
@@ -265,6 +279,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
       settings.poses
           ? poses_of_file(heads, bag->topics()[topic], settings, folder, pose_settings, sequence)
           : poses_of_bag(*bag, heads, messages, settings, options.pose_topic, pose_settings);
+  if (settings.skip_bad_scans) drop_bad_messages(*bag, topic, heads, context.cancel, found.poses);
   std::vector<BagScan> scans;
   for (std::size_t i = 0; i < heads.messages.size(); ++i) {
     if (!found.poses.poses[i]) continue;
@@ -281,6 +296,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   take(sequence.notes, std::move(found.poses.notes));
   sequence.losses = heads.losses;
   take(sequence.losses, std::move(found.poses.losses));
+  sequence.pose_gap = found.poses.gap;
   find_labels(folder, settings, sequence);
   const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
                                                       found.point_frame, settings.sensor);

@@ -87,13 +87,9 @@ class PackedBag : public Bag {
 /// What a file is, by its first bytes.
 enum class BagContainer { kRos1, kMcap, kDb3, kZstd };
 
+/// A .bag.active, which was not closed, begins as others do.
 /// @throws DataError if it begins as none of them; UsageError for a form that is known and not read
 BagContainer container_of(const fs::path& file) {
-  if (file.filename().string().ends_with(".bag.active")) {
-    throw UsageError(file.string() +
-                     ": is a recording that was not closed, or is being written. Copy it to a name "
-                     "that ends in .bag, `rosbag reindex` it, and name that.");
-  }
   const std::string head = BagFile(file).read_up_to(0, 16);
   if (head.starts_with(kRos1Magic)) return BagContainer::kRos1;
   if (head.starts_with("#ROSBAG V1") || head.starts_with("#ROSLOG V1")) {
@@ -143,7 +139,7 @@ std::unique_ptr<Bag> open_in_folder(const fs::path& file) {
 }
 
 std::unique_ptr<Bag> open_folder(const fs::path& folder) {
-  if (has_file(folder / "metadata.yaml")) {
+  if (is_bag(folder)) {
     return std::make_unique<Ros2FolderBag>(folder, open_in_folder);
   }
   std::vector<std::string> inside;
@@ -157,7 +153,8 @@ std::unique_ptr<Bag> open_folder(const fs::path& folder) {
   }
   throw UsageError(folder.string() +
                    ": has no metadata.yaml, which says what belongs to the "
-                   "recording. Name one of its files (" +
+                   "recording, and its files have not one name with _0, _1 and so on behind it. "
+                   "Name one of its files (" +
                    join(inside) + "), or write it by `ros2 bag reindex " +
                    folder.filename().string() + "`.");
 }
@@ -165,7 +162,11 @@ std::unique_ptr<Bag> open_folder(const fs::path& folder) {
 }  // namespace
 
 bool is_bag(const fs::path& path) {
-  if (is_folder(path)) return if_whole([&] { return has_file(path / "metadata.yaml"); }) == true;
+  if (is_folder(path)) {
+    return if_whole([&] {
+             return has_file(path / "metadata.yaml") || !split_recording(path).empty();
+           }) == true;
+  }
   return has_bag_ending(path) && is_file(path);
 }
 

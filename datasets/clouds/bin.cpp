@@ -32,17 +32,73 @@ std::string fitting_sizes(std::uintmax_t bytes) {
          " bytes: if they are such, name their fields with --point-layout.";
 }
 
+/// The largest difference between the shares of both up to any value: 0 alike, 1 apart.
+/// @param a, b in order
+double distance(const std::vector<float>& a, const std::vector<float>& b);
+double column_distance(const std::vector<float>& numbers, std::size_t width, std::size_t step);
+
+/// The share of numbers that are neither 0 nor of the size of coordinates or intensities.
+template <class Number>
+double odd_share(const std::string& bytes) {
+  std::size_t odd = 0;
+  const std::size_t count = bytes.size() / sizeof(Number);
+  for (std::size_t i = 0; i < count; ++i) {
+    Number number;
+    std::memcpy(&number, bytes.data() + i * sizeof number, sizeof number);
+    const double size = std::abs(static_cast<double>(number));
+    odd += !(size == 0.0 || (size > 1e-7 && size < 1e7)) ? 1 : 0;
+  }
+  return static_cast<double>(odd) / static_cast<double>(count);
+}
+
+/// The point layout of a file whose numbers are odd as float32 and usual as float64; else empty.
+/// Half of the words of float64 numbers have any exponent as float32.
+std::string double_layout(const std::filesystem::path& path) {
+  constexpr std::size_t kFewest = 30, kMost = 2520;  // A multiple of all widths.
+  const std::string bytes = read_piece(path, 0, kMost * sizeof(double));
+  const std::size_t count = bytes.size() / sizeof(double);
+  if (count < kFewest || odd_share<float>(bytes) < 0.1 || odd_share<double>(bytes) > 0.02)
+    return "";
+  std::vector<float> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    double number;
+    std::memcpy(&number, bytes.data() + i * sizeof number, sizeof number);
+    numbers.push_back(static_cast<float>(number));
+  }
+  std::size_t best = 0;
+  double most = -1.0;
+  for (const std::size_t width : {4, 3, 5, 6, 7, 8}) {
+    if (plain_file_size(path) % (width * sizeof(double)) != 0) continue;
+    const double apart = column_distance(numbers, width, 1);
+    if (apart <= most + 0.05) continue;
+    best = width;
+    most = apart;
+  }
+  if (best == 0) return "";
+  std::string layout = "x:f8 y:f8 z:f8";
+  for (std::size_t k = 3; k < best; ++k) layout += k == 3 ? " intensity:f8" : " _:f8";
+  return layout;
+}
+
+/// " Its numbers look like float64: ..."; empty if they do not.
+std::string double_text(const std::filesystem::path& path) {
+  const std::string layout = double_layout(path);
+  if (layout.empty()) return "";
+  return " Its numbers look like float64: say --point-layout \"" + layout + "\".";
+}
+
 /// @throws DataError naming the sizes of a point that would fit
 void check_rows(const std::filesystem::path& path, std::uintmax_t bytes,
                 const RecordLayout& layout) {
   const std::size_t row = layout.row_bytes;
   if (bytes % row == 0 && bytes / row <= kMostCloudPoints) return;
   const RecordLayout usual = bin_layout(std::nullopt);
+  const std::string doubles = layout == usual && is_file(path) ? double_text(path) : "";
   throw DataError(path.string() + ": " + grouped_text(bytes) + " bytes is not a multiple of " +
                   std::to_string(row) + " (" +
                   (layout == usual ? "x y z reflectance as float32" : point_layout_text(layout)) +
-                  "); the file looks truncated after point " + grouped_text(bytes / row) +
-                  ". Copy it again, or leave it out with --frames." + fitting_sizes(bytes));
+                  "); the file looks truncated after point " + grouped_text(bytes / row) + "." +
+                  kRereadRemedy + (doubles.empty() ? fitting_sizes(bytes) : doubles));
 }
 
 StoredPoints bin_points(const CloudBytes& file) {
@@ -108,8 +164,6 @@ std::vector<float> sampled_numbers(const std::filesystem::path& path) {
   return numbers;
 }
 
-/// The largest difference between the shares of both up to any value: 0 alike, 1 apart.
-/// @param a, b in order
 double distance(const std::vector<float>& a, const std::vector<float>& b) {
   double most = 0.0;
   std::size_t in_a = 0, in_b = 0;
@@ -194,6 +248,13 @@ void check_bin_width(const std::vector<std::filesystem::path>& scans,
   std::copy_if(scans.begin(), scans.end(), std::back_inserter(bins),
                [](const std::filesystem::path& scan) { return scan.extension() == ".bin"; });
   if (bins.empty()) return;
+  const std::filesystem::path& middle = bins[bins.size() / 2];
+  if (const std::string doubles = double_text(middle); !doubles.empty()) {
+    throw DataError(middle.string() +
+                    ": as float32 its numbers would be no coordinates; expected 4 float32 numbers "
+                    "a point (x y z reflectance)." +
+                    doubles);
+  }
   const std::vector<std::size_t> widths = fitting_widths(bins);
   if (widths.empty()) return;
   const auto width = seen_width(bins, widths);

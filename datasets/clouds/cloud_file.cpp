@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/clouds/cloud_file.h"
 
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -18,10 +19,8 @@ constexpr const char* kPacked = ".gz";
 
 [[noreturn]] void throw_unknown(const std::filesystem::path& path,
                                 const std::vector<std::string>& known) {
-  if (path.extension() == ".laz") {
-    throw UsageError(path.string() +
-                     ": LAZ, compressed LAS, is not read or written. Unpack it first: laszip -i "
-                     "in.laz -o out.las, or pdal translate in.laz out.las.");
+  if (const std::string text = conversion_text(path); !text.empty()) {
+    throw UsageError(path.string() + ": " + text);
   }
   throw UsageError(path.string() + ": '" + path.extension().string() +
                    "' is no known cloud format. Supported are: " + join(known) + ".");
@@ -54,6 +53,32 @@ auto read_unpacked(const std::filesystem::path& path, const RecordReading& readi
 }
 
 }  // namespace
+
+std::string conversion_text(const std::filesystem::path& path) {
+  const auto each_scan = [](const std::string& ending) {
+    return "CloudCompare writes each of its scans as a file: CloudCompare -SILENT -C_EXPORT_FMT "
+           "PLY -O in." +
+           ending + " -SAVE_CLOUDS.";
+  };
+  static const std::map<std::string, std::string> texts = {
+      {".laz",
+       "LAZ, compressed LAS, is not read or written. Unpack it first: laszip -i in.laz -o out.las, "
+       "or pdal translate in.laz out.las."},
+      {".e57", "E57 is not read. " + each_scan("e57")},
+      {".ptx", "PTX is not read. " + each_scan("ptx")},
+      {".pts", "PTS is not read. " + each_scan("pts")},
+      {".pcap",
+       "the packets of a sensor are not read. Ouster's SDK makes a recording of them (ouster-cli "
+       "source in.pcap save out.bag), for other sensors their ROS driver with `rosbag record`."},
+      {".osf",
+       "OSF is not read. Ouster's SDK makes a recording of it: ouster-cli source in.osf save "
+       "out.bag."},
+      {".feather",
+       "feather (Argoverse 2) is not read. pandas converts it: pandas.read_feather(\"in.feather\")"
+       "[[\"x\", \"y\", \"z\", \"intensity\"]].to_numpy(\"f4\").tofile(\"out.bin\")."}};
+  const auto found = texts.find(path.extension().string());
+  return found == texts.end() ? "" : found->second;
+}
 
 const std::vector<std::string>& cloud_extensions() {
   static const std::vector<std::string> extensions = [] {

@@ -28,6 +28,10 @@ std::string cloud_extension(const std::filesystem::path& path);
 /// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
 std::string cloud_stem(const std::filesystem::path& path);
 
+/// How a file of a format that is not read becomes one that is, by the ending of its name; empty
+/// for others.
+std::string conversion_text(const std::filesystem::path& path);
+
 /// Whether `path` names a file of points that is packed with gzip.
 bool is_packed(const std::filesystem::path& path);
 

@@ -26,7 +26,7 @@ const FrameEntry& frame_of(const std::vector<FrameEntry>& frames, std::size_t in
 }  // namespace
 
 std::vector<std::uint32_t> of_kept_points(const Scan& scan, std::vector<std::uint32_t> stored) {
-  if (scan.stored_index.empty()) return stored;
+  if (scan.stored_index.empty() && !scan.points.empty()) return stored;
   std::vector<std::uint32_t> words;
   words.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) words.push_back(stored[scan.stored_position(i)]);
@@ -41,7 +41,13 @@ const SensorModel& SensorChoice::get(std::size_t scan_count, const Load& load) c
   std::call_once(once_, [&] {
     if (model_) return;
     std::vector<Scan> scans;
-    for (const std::size_t scan : evenly_spread(scan_count, 5)) scans.push_back(load(scan));
+    const auto add = [&](std::size_t scan) {
+      scans.push_back(load(scan));
+      return !scans.back().points.empty();
+    };
+    bool any = false;
+    for (const std::size_t scan : evenly_spread(scan_count, 5)) any = add(scan) || any;
+    for (std::size_t scan = 0; !any && scan < scan_count; ++scan) any = add(scan);
     model_ = estimate_sensor_model(scans);
   });
   return *model_;
@@ -86,14 +92,15 @@ const SensorModel& FileScanSource::sensor() const {
 
 std::vector<std::uint32_t> LabelFileSource::labels(const Scan& scan) const {
   const FrameEntry& frame = frame_of(frames_, scan.index);
+  if (frame.label_path.empty()) return std::vector<std::uint32_t>(scan.size(), kNoLabelFile);
   const auto bytes = read_bytes(frame.label_path);
   if (bytes.size() != scan.stored_point_count * sizeof(std::uint32_t)) {
     throw DataError(frame.label_path.string() + ": holds " +
                     grouped_text(bytes.size() / sizeof(std::uint32_t)) + " labels (" +
                     grouped_text(bytes.size()) + " bytes, 4 a label), but " + frame.path.string() +
                     " holds " + grouped_text(scan.stored_point_count) +
-                    " points; expected one label a point. Copy both again, or leave the frame out "
-                    "with --frames.");
+                    " points; expected one label a point. Copy both again, or move the label file "
+                    "away: scans without one are not scored.");
   }
   std::vector<std::uint32_t> stored(scan.stored_point_count);
   if (!bytes.empty()) std::memcpy(stored.data(), bytes.data(), bytes.size());
@@ -124,20 +131,6 @@ std::vector<std::uint32_t> IntensityLabelSource::labels(const Scan& scan) const 
     words.push_back(static_cast<std::uint32_t>(value));
   }
   return words;
-}
-
-bool find_label_files(const std::filesystem::path& folder, std::vector<FrameEntry>& frames) {
-  if (!has_folder(folder)) return false;
-  for (FrameEntry& frame : frames) {
-    frame.label_path = folder / (frame.name + ".label");
-    if (!has_file(frame.label_path)) {
-      throw DataError(frame.label_path.string() + ": is missing, but " + folder.string() +
-                      " exists and " + frame.path.string() +
-                      " is to be used. Copy the label file, leave the frame out with --frames, or "
-                      "move the labels folder away to work without labels.");
-    }
-  }
-  return true;
 }
 
 }  // namespace raymoval

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +50,12 @@ class LeftOutTally {
   void set(std::size_t scan, std::uint64_t stored, std::uint64_t left_out) const {
     const std::lock_guard lock(mutex_);
     scans_[scan] = {stored, left_out};
+    if (stored == left_out) empty_.insert(scan);
+  }
+  /// The scans that were set and have no point left, in order.
+  [[nodiscard]] std::set<std::size_t> empty() const {
+    const std::lock_guard lock(mutex_);
+    return empty_;
   }
   /// The stored and the left out points of all scans that were set.
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> total() const {
@@ -63,6 +71,7 @@ class LeftOutTally {
  private:
   mutable std::mutex mutex_;
   mutable std::vector<std::pair<std::uint64_t, std::uint64_t>> scans_;
+  mutable std::set<std::size_t> empty_;
 };
 
 /// Scans that count their missing returns.
@@ -110,6 +119,9 @@ class FileScanSource : public ScanSource, public RecordSource, public TalliedSou
 /// Of `stored`, a word for each stored point of `scan`, those of the points that it has.
 std::vector<std::uint32_t> of_kept_points(const Scan& scan, std::vector<std::uint32_t> stored);
 
+/// The label of all points of a scan that has no label file, where others have one.
+inline constexpr std::uint16_t kNoLabelFile = 65535;
+
 /// SemanticKITTI label files: one uint32 a stored point, in the order of the scan file.
 class LabelFileSource : public LabelSource {
  public:
@@ -131,10 +143,5 @@ class IntensityLabelSource : public LabelSource {
  private:
   std::vector<FrameEntry> frames_;
 };
-
-/// Gives every frame the label file `folder`/NAME.label.
-/// @return false, with nothing changed, if there is no such folder
-/// @throws DataError if a frame has no label file
-bool find_label_files(const std::filesystem::path& folder, std::vector<FrameEntry>& frames);
 
 }  // namespace raymoval

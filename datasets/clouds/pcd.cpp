@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <utility>
 
@@ -82,10 +83,11 @@ class PcdHeaderParser {
       PointField field;
       field.name = names->second[i];
       field.size = lines_.number<int>(sizes[i], 1, 8);
-      field.type = types[i].size() == 1 ? types[i].front() : '?';
+      field.type = types[i].size() == 1 ? static_cast<char>(std::toupper(types[i].front())) : '?';
       if (entries_.contains("COUNT")) {
-        field.count = lines_.number<int>(entry("COUNT", count)[i], 1, kLargestCount);
+        field.count = lines_.number<int>(entry("COUNT", count)[i], 0, kLargestCount);
       }
+      if (field.count == 0) continue;  // Padding of no bytes, as Ouster's driver writes it.
       const bool real = field.type == 'F' && (field.size == 4 || field.size == 8);
       const bool whole =
           (field.type == 'I' || field.type == 'U') && (field.size & (field.size - 1)) == 0;

@@ -189,8 +189,8 @@ class PlyHeaderParser {
 
   [[noreturn]] void fail_cut() const {
     throw DataError(path_.string() +
-                    ": the file ends within the elements before its vertices; it looks truncated. "
-                    "Copy it again.");
+                    ": the file ends within the elements before its vertices; it looks truncated." +
+                    kRereadRemedy);
   }
 
   std::string_view bytes_;

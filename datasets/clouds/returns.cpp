@@ -26,20 +26,13 @@ PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {
 }
 
 void check_kinds(const ReturnCounts& counts, const std::string& where, const std::string& remedy) {
-  if (counts.stored == 0) {
-    throw DataError(where + ": holds no point; a scan has at least one." + remedy);
-  }
+  if (counts.stored == 0) return;
   const double infinite = static_cast<double>(counts.infinite) / static_cast<double>(counts.stored);
   if (infinite > kMostInfinite) {
     throw DataError(where + ": " + grouped_text(counts.infinite) + " of " +
                     grouped_text(counts.stored) +
                     " points are infinite, more than 1 %; the file looks damaged. Where nothing "
                     "came back write NaN." +
-                    remedy);
-  }
-  if (counts.returns() == 0) {
-    throw DataError(where + ": none of its " + grouped_text(counts.stored) +
-                    " points is a return (all are NaN or at the origin); a scan has at least one." +
                     remedy);
   }
 }
@@ -112,6 +105,40 @@ ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where
   const ReturnCounts counts = keep_returns(std::move(cloud), kAtSensor, scan);
   check_kinds(counts, where, remedy);
   return counts;
+}
+
+void drop_bad_scans(std::vector<std::optional<Pose>>& poses,
+                    const std::function<std::string(std::size_t)>& name,
+                    const std::function<void(std::size_t)>& read, const std::atomic<bool>* cancel,
+                    std::vector<std::string>& losses) {
+  constexpr std::size_t kNamed = 8;
+  std::vector<std::string> names;
+  std::string first;
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    if (!poses[i]) continue;
+    try {
+      read(i);
+    } catch (const DataError& error) {
+      poses[i].reset();
+      if (++bad == 1) first = error.what();
+      if (bad <= kNamed) names.push_back(name(i));
+    }
+  }
+  if (bad == 0) return;
+  const std::string remedy = kRereadRemedy;
+  const std::size_t at = first.find(remedy);
+  if (at != std::string::npos) first.erase(at, remedy.size());
+  if (bad > kNamed) names.push_back(grouped_text(bad - kNamed) + " more");
+  const std::string what = grouped_text(bad) + " of " + counted_text(poses.size(), "scan") +
+                           " cannot be read (" + join(names) + ")";
+  if (2 * bad >= poses.size()) {
+    throw DataError(what + "; expected fewer than half. The first: " + first +
+                    " Look at the layout of the points, or copy the scans again.");
+  }
+  losses.push_back(what + " and are left out, as asked by --skip-bad-scans. The first: " +
+                   first.substr(first.rfind('/', first.find(": ")) + 1));
 }
 
 }  // namespace raymoval

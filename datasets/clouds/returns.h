@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,6 @@ inline constexpr float kAtSensor = 0.05F;
 /// Leaves the points of `scan` at the positions `kept` (ascending), with what belongs to them.
 void keep_points(Scan& scan, std::vector<std::uint32_t> kept);
 
-/// What to do about a damaged file.
-inline constexpr const char* kRereadRemedy = " Copy it again, or leave it out with --frames.";
-
 /// Fills the points, reflectances and stored indices of `scan` with the returns among the points
 /// that `read` gives, in the sensor frame. Points that stand for a missing return (a NaN
 /// coordinate, or within 5 cm of the sensor; in the world frame also at its origin) and infinite
@@ -37,10 +36,20 @@ inline constexpr const char* kRereadRemedy = " Copy it again, or leave it out wi
 /// @param where begins the message, such as the file's path
 /// @param remedy ends the message
 /// @param read gives the stored points less an origin in metres, see `read_cloud`
-/// @throws DataError for no point, no return, and more than 1 % infinite points (evaluation
-///   protocol, edge cases); what `read` throws
+/// @throws DataError for more than 1 % infinite points (evaluation protocol, edge cases); what
+///   `read` throws
 ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where,
                           const std::function<Cloud(const Eigen::Vector3d&)>& read,
                           const std::string& remedy = kRereadRemedy);
+
+/// Takes the poses of scans that cannot be read away, so that these are left out.
+/// @param name of a scan, for messages
+/// @param read reads a scan
+/// @param losses gets a sentence on them, if there are any
+/// @throws DataError if half of the scans or more cannot be read; Cancelled
+void drop_bad_scans(std::vector<std::optional<Pose>>& poses,
+                    const std::function<std::string(std::size_t)>& name,
+                    const std::function<void(std::size_t)>& read, const std::atomic<bool>* cancel,
+                    std::vector<std::string>& losses);
 
 }  // namespace raymoval

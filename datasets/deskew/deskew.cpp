@@ -241,9 +241,11 @@ PointClock find_point_clock(const ScanSource& scans, const DeskewInput& input,
                             const std::optional<std::string>& unit) {
   const std::size_t count = scans.size();
   std::vector<TimedScan> timed;
-  for (const std::size_t i : std::set<std::size_t>{0, count / 2, count - 1}) {
+  for (std::size_t i : std::set<std::size_t>{0, count / 2, count - 1}) {
+    Scan scan = scans.load(i);
+    while (scan.points.empty() && i + 1 < count) scan = scans.load(++i);
     timed.push_back(
-        {scans.load(i), input.records->records(i), input.stamps[i], input.records->place(i)});
+        {std::move(scan), input.records->records(i), input.stamps[i], input.records->place(i)});
   }
   PointClock clock = find_point_clock(timed, unit);
   const auto [first, last] = input.motion->span();

@@ -118,7 +118,7 @@ std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
   const auto path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
   const PoseFile file = read_pose_file(path, {settings.pose_format});
   // Poses that go by time, and one pose for all scans, may be of any number.
-  if (file.stamped() || file.rows.size() == 1) return {};
+  if (file.stamped() || file.rows.size() == 1 || file.rows.front().frame) return {};
   const std::size_t rows = file.rows.size();
   std::size_t least = 0, most = SIZE_MAX;
   if (layout.pose_place == PosePlace::kRowOfFrameNumber) {
@@ -173,7 +173,18 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
   report.sequence = std::filesystem::path(path).filename().string();
   report.findings = unopenable_findings(path, options);
   if (!report.findings.empty()) return report;
-  return inspect(open_sequence(path, options, context), context.threads, context.cancel);
+  std::optional<Sequence> sequence;
+  try {
+    sequence = open_sequence(path, options, context);
+  } catch (const PosesMissing& error) {
+    report.findings.push_back({.check = inspection::kMissingPoses,
+                               .where = error.gap().where,
+                               .what = error.gap().what,
+                               .expected = "a pose for each scan",
+                               .remedy = error.gap().remedy});
+    return report;
+  }
+  return inspect(*sequence, context.threads, context.cancel);
 }
 
 }  // namespace raymoval

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/reading/left_out.h"
 
+#include <set>
 #include <tuple>
 
 #include "core/text.h"
@@ -44,6 +45,19 @@ LeftOutPoints left_out_points(const Sequence& sequence) {
     std::tie(points.stored, points.no_returns) = tallied->tally().total();
   }
   return points;
+}
+
+std::string empty_scans_line(const Sequence& sequence) {
+  const auto* tallied = dynamic_cast<const TalliedSource*>(&stored_source(sequence));
+  const auto empty = tallied == nullptr ? std::set<std::size_t>() : tallied->tally().empty();
+  if (empty.empty()) return "";
+  const FileScanSource* files = file_source(sequence);
+  const std::size_t first = *empty.begin();
+  return grouped_text(empty.size()) + " of " + counted_text(sequence.scans->size(), "scan") +
+         " have no return, the first is " +
+         (files != nullptr ? files->frames()[first].path.filename().string()
+                           : "scan " + std::to_string(first)) +
+         "; their masks are empty";
 }
 
 std::vector<std::string> left_out_lines(const Sequence& sequence) {

@@ -18,6 +18,10 @@ struct LeftOutPoints {
   std::uint64_t own_vehicle = 0;  ///< Of these, in its region.
 };
 
+/// "2 scans without a return, the first at position 14 from 0"; empty if there is none among the
+/// scans that were read so far.
+std::string empty_scans_line(const Sequence& sequence);
+
 /// What was left out of the scans of `sequence` that were read so far.
 LeftOutPoints left_out_points(const Sequence& sequence);
 

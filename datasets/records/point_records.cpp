@@ -2,6 +2,7 @@
 #include "datasets/records/point_records.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -37,6 +38,12 @@ Number nearest(double value) {
   }
 }
 
+bool is_same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
 std::size_t offset_of(const PointField& field, int at) {
   return field.offset + static_cast<std::size_t>(field.size) * static_cast<std::size_t>(at);
 }
@@ -52,6 +59,11 @@ std::string PointField::text() const {
 const PointField* RecordLayout::find(const std::vector<std::string_view>& names) const {
   for (const PointField& field : fields) {
     if (std::find(names.begin(), names.end(), field.name) != names.end()) return &field;
+  }
+  // PDAL and laspy write X Y Z and Intensity.
+  for (const PointField& field : fields) {
+    const auto same = [&](std::string_view name) { return is_same_word(field.name, name); };
+    if (std::any_of(names.begin(), names.end(), same)) return &field;
   }
   return nullptr;
 }

@@ -47,7 +47,7 @@ fs::path folder_in_root(const std::string& path) {
                    " A root holds sequences/NN; known here: " + join(there) + ".");
 }
 
-Sequence open_root(Layout::Path path, const SequenceOptions& options, const OpenContext&) {
+Sequence open_root(Layout::Path path, const SequenceOptions& options, const OpenContext& context) {
   if (is_folder(path)) {
     throw UsageError(path + ": is a root with " + content_text(fs::path(path) / "sequences") +
                      " in sequences/; say which one, such as " + path + ":05.");
@@ -67,13 +67,13 @@ Sequence open_root(Layout::Path path, const SequenceOptions& options, const Open
     there.push_back(folder.filename().string());
   }
   if (std::find(there.begin(), there.end(), selection) != there.end()) {
-    return open_semantickitti(fs::path(root) / "sequences" / selection, options);
+    return open_semantickitti(fs::path(root) / "sequences" / selection, options, context);
   }
   const PaperSegment* segment = find_segment(selection);
   if (segment == nullptr) throw_not_in_root(root, selection, std::move(there));
   const fs::path folder = folder_in_root(path);
   if (is_folder(folder))
-    return open_semantickitti(folder, options, {selection, segment->frames, {}});
+    return open_semantickitti(folder, options, context, {selection, segment->frames, {}});
   throw DataError(folder.string() + ": no such folder; segment " + selection +
                   " is part of sequence " + segment->sequence +
                   " of SemanticKITTI, and sequences/ holds " +

@@ -185,10 +185,10 @@ std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
   std::vector<FrameEntry> frames;
   std::vector<std::filesystem::path> scans;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (!poses.poses[i]) continue;
     const std::filesystem::path& path = chosen[i].path;
     check_bin_size(path, plain_file_size(path), reading);
     scans.push_back(path);
-    if (!poses.poses[i]) continue;
     frames.push_back({path, "", path.stem().string(), poses.times_s[i], *poses.poses[i]});
   }
   check_bin_width(scans, reading);
@@ -260,7 +260,7 @@ ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSetting
 }  // namespace
 
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
-                            const SemanticKittiDefaults& defaults) {
+                            const OpenContext& context, const SemanticKittiDefaults& defaults) {
   SequenceSettings base;
   base.name = defaults.name;
   base.frames = defaults.frames;
@@ -274,7 +274,10 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   Sequence sequence = make_sequence(settings, semantickitti_layout(), chosen.range);
   const StampColumn times = frame_stamps(folder, files, sequence.input_files);
   const ScanKeys keys = scan_keys(files, chosen.files, times, *settings.scan_period_s);
-  const ScanPoses poses = frame_poses(folder, settings, keys, sequence);
+  ScanPoses poses = frame_poses(folder, settings, keys, sequence);
+  if (settings.skip_bad_scans) {
+    drop_bad_files(chosen.files, {settings.point_layout}, context, poses.poses, poses.losses);
+  }
 
   std::vector<FrameEntry> entries = frame_entries(chosen.files, poses, {settings.point_layout});
   for (std::size_t i = 0; i < poses.poses.size(); ++i) {
@@ -283,9 +286,8 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   sequence.motion = poses.motion;
   sequence.notes = poses.notes;
   sequence.losses = poses.losses;
-  if (find_label_files(folder / "labels", entries)) {
-    sequence.labels = std::make_shared<LabelFileSource>(entries);
-  }
+  sequence.pose_gap = poses.gap;
+  add_label_files(folder / "labels", entries, sequence);
   if (settings.moving_now && sequence.labels) {
     const auto movers = folder / kMoversFile;
     sequence.input_files.push_back(movers);
@@ -315,8 +317,8 @@ Layout semantickitti_layout() {
   layout.recognise = [](Layout::Path path) {
     return is_folder(path) && has_folder(std::filesystem::path(path) / "velodyne");
   };
-  layout.open = [](Layout::Path path, const SequenceOptions& options, const OpenContext&) {
-    return open_semantickitti(path, options);
+  layout.open = [](Layout::Path path, const SequenceOptions& options, const OpenContext& context) {
+    return open_semantickitti(path, options, context);
   };
   return layout;
 }

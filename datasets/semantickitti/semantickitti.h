@@ -41,6 +41,7 @@ struct SemanticKittiDefaults {
 /// Opens a sequence folder of `semantickitti_layout`.
 /// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected
 Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceOptions& options,
+                            const OpenContext& context = {},
                             const SemanticKittiDefaults& defaults = {});
 
 }  // namespace raymoval

@@ -14,7 +14,7 @@ Sequence open_scene(const std::string& path, const SequenceOptions& options,
   return open_semantickitti(
       cached_simulation(parse_scene(path), default_cache_root(), context.threads, context.progress,
                         context.cancel, context.check_content),
-      options);
+      options, context);
 }
 
 }  // namespace

@@ -47,6 +47,10 @@ const PoseColumns* columns_of(const std::vector<PoseColumns>& all, std::size_t c
   return found == all.end() ? nullptr : &*found;
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 std::vector<double> first_numbers(const PoseText& text) {
   std::vector<double> numbers;
   for (const std::string_view word : text.first().words) {
@@ -84,7 +88,7 @@ QuaternionOrder quaternion_order(const PoseText& text) {
 /// The times of EuRoC's files are whole nanoseconds since 1970.
 bool has_nanoseconds(const PoseText& text) {
   const std::string_view time = text.first().words.front();
-  return time.find('.') == std::string_view::npos && time.size() >= 17;
+  return time.size() >= 17 && std::all_of(time.begin(), time.end(), is_digit);
 }
 
 /// Whether a text of eight numbers a row is EuRoC's, or has TUM's order.
@@ -132,6 +136,28 @@ Match match_hba(const PoseText& text) {
                   ".");
 }
 
+/// Rows of a matrix behind a time, or behind the number of their frame as in KITTI-360: whole
+/// numbers that are too small for times since 1970 in any unit.
+PoseFile read_numbered(const PoseText& text, PoseColumns columns) {
+  constexpr std::size_t kMostDigits = 8;
+  std::vector<long> frames;
+  bool numbered = columns.time.has_value();
+  text.for_each_row([&](const TextRow& row) {
+    const std::string_view word = row.words.front();
+    numbered =
+        numbered && word.size() <= kMostDigits && std::all_of(word.begin(), word.end(), is_digit);
+    if (numbered) frames.push_back(parse_number<long>(word).value_or(0));
+  });
+  if (!numbered) return read_columns(text, columns);
+  columns.time.reset();
+  PoseFile file = read_columns(text, columns);
+  for (std::size_t i = 0; i < frames.size(); ++i) file.rows[i].frame = frames[i];
+  file.notes.push_back(file.path.string() +
+                       ": the first column is taken for the number of the frame, by its whole "
+                       "numbers.");
+  return file;
+}
+
 /// @param columns for each count of words that the format may have in a row
 TextFormat fixed(const PoseFormatName& name, const std::vector<PoseColumns>& columns,
                  std::function<Match(const PoseText&)> match = nullptr) {
@@ -143,36 +169,67 @@ TextFormat fixed(const PoseFormatName& name, const std::vector<PoseColumns>& col
   const auto read = [name, columns](const PoseText& text) {
     const PoseColumns* fitting = columns_of(columns, text.first().words.size());
     if (fitting == nullptr) throw_count(text, name);
-    return read_columns(text, *fitting);
+    const bool matrix = fitting->count == 13 || fitting->count == 17;
+    return matrix && fitting->time ? read_numbered(text, *fitting) : read_columns(text, *fitting);
   };
   return {name, match, read};
 }
 
-/// Matrices in blocks of four lines with four numbers each.
-PoseFile read_blocks(const PoseText& text) {
-  const PoseColumns columns = matrix_columns(Rotation::kMatrix4x4, 16, false);
-  PoseFile file;
-  file.path = text.path();
-  std::vector<double> numbers;
+/// A matrix of 16 numbers, and where its last number stands in the text.
+struct Block {
+  std::vector<double> numbers = {};
   std::size_t line = 0, last_line = 0;
+  std::string_view last = {};
+};
+
+/// Matrices of four rows with four numbers, or of 16 numbers a row.
+std::vector<Block> blocks_of(const PoseText& text) {
+  const std::size_t words = text.first().words.size();
+  std::vector<Block> blocks;
   text.for_each_row([&](const TextRow& row) {
     const auto part = text.numbers(row);
-    if (part.size() != 4) {
+    if (part.size() != words) {
       throw DataError(text.place(row.line) + ": " + std::to_string(part.size()) +
-                      " numbers; expected 4 as in the rows above; the row looks cut or doubled.");
+                      " numbers; expected " + std::to_string(words) +
+                      " as in the rows above; the row looks cut or doubled.");
     }
-    if (numbers.empty()) line = row.line;
-    last_line = row.line;
-    numbers.insert(numbers.end(), part.begin(), part.end());
-    if (numbers.size() < 16) return;
-    file.rows.push_back({pose_matrix(numbers, columns, text.place(row.line)), line, std::nullopt});
-    numbers.clear();
+    if (blocks.empty() || blocks.back().numbers.size() == 16) blocks.push_back({{}, row.line});
+    blocks.back().last_line = row.line;
+    blocks.back().numbers.insert(blocks.back().numbers.end(), part.begin(), part.end());
+    blocks.back().last = row.words.back();
   });
-  if (!numbers.empty()) {
-    throw DataError(text.place(last_line) +
+  if (!blocks.empty() && blocks.back().numbers.size() < 16) {
+    throw DataError(text.place(blocks.back().last_line) +
                     ": the file ends within a matrix; expected blocks of "
                     "four lines with four numbers each.");
   }
+  return blocks;
+}
+
+/// Matrices whose last row is 0 0 0 1, or 0 0 0 and the time of the pose.
+PoseFile read_blocks(const PoseText& text) {
+  const PoseColumns columns = matrix_columns(Rotation::kMatrix4x4, 16, false);
+  std::vector<Block> blocks = blocks_of(text);
+  const bool timed =
+      std::count_if(blocks.begin(), blocks.end(),
+                    [](const Block& block) { return block.numbers[15] == 1.0; }) < 2 &&
+      blocks.size() > 1 && std::all_of(blocks.begin(), blocks.end(), [](const Block& block) {
+        const auto& n = block.numbers;
+        return n[12] == 0.0 && n[13] == 0.0 && n[14] == 0.0;
+      });
+  PoseFile file;
+  file.path = text.path();
+  std::vector<std::string_view> times;
+  for (Block& block : blocks) {
+    times.push_back(block.last);
+    if (timed) block.numbers[15] = 1.0;
+    file.rows.push_back({.matrix = pose_matrix(block.numbers, columns, text.place(block.last_line)),
+                         .line = block.line});
+  }
+  if (!timed) return file;
+  set_stamps(file, times, {}, std::nullopt);
+  file.notes.push_back(file.path.string() +
+                       ": the last number of each matrix is taken for the time of the pose.");
   return file;
 }
 
@@ -218,7 +275,7 @@ PoseFile read_ct_icp(const PoseText& text, const PoseFormatName& name) {
     std::vector<double> numbers(10, 0.0);
     for (std::size_t i = 4; i < 10; ++i) numbers[i] = text.number(row, i + skipped);
     numbers[3] = count == 22 ? text.number(row, 4) : cut_quaternion(text, row, 3);
-    file.rows.push_back({pose_matrix(numbers, columns, where), row.line, std::nullopt});
+    file.rows.push_back({.matrix = pose_matrix(numbers, columns, where), .line = row.line});
     times.push_back(row.words[1]);
   });
   set_stamps(file, times, {}, std::nullopt);
@@ -240,14 +297,14 @@ TextFormat ct_icp() {
 
 /// A file of matrices in blocks, or in rows as those of other formats.
 TextFormat matrix() {
-  TextFormat rows =
-      fixed({"matrix",
-             "4 x 4 matrices: 16 numbers a row, blocks of four lines, or a time and 16 numbers"},
-            {matrix_columns(Rotation::kMatrix4x4, 16, false),
-             matrix_columns(Rotation::kMatrix4x4, 16, true)},
-            match_matrix);
+  TextFormat rows = fixed(
+      {"matrix",
+       "4 x 4 matrices: 16 numbers a row, blocks of four lines, or a time or frame number and 16 "
+       "numbers; the last row is 0 0 0 1 or 0 0 0 time"},
+      {matrix_columns(Rotation::kMatrix4x4, 16, true)}, match_matrix);
   rows.read = [read_rows = rows.read](const PoseText& text) {
-    return text.first().words.size() == 4 ? read_blocks(text) : read_rows(text);
+    const std::size_t words = text.first().words.size();
+    return words == 4 || words == 16 ? read_blocks(text) : read_rows(text);
   };
   return rows;
 }
@@ -259,7 +316,7 @@ std::vector<TextFormat> column_formats() {
       fixed(
           {"kitti",
            "12 numbers a row, a 3 x 4 matrix row by row (KITTI, KISS-ICP's _kitti.txt), or a time "
-           "and 12 numbers (MulRan)"},
+           "(MulRan) or frame number (KITTI-360) and 12 numbers"},
           {matrix_columns(Rotation::kMatrix3x4, 12, false),
            matrix_columns(Rotation::kMatrix3x4, 12, true)}),
       matrix(),

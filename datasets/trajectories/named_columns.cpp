@@ -43,12 +43,15 @@ bool is_one_of(const std::string& text, const std::vector<std::string>& all) {
   return std::find(all.begin(), all.end(), text) != all.end();
 }
 
-/// What a column holds: "x", "qw", "roll", "time", "sec", "nsec", or "" for anything else.
+/// What a column holds: "x", "qw", "roll", "heading", "time", "sec", "nsec", or "" for others.
 std::string meaning(const ColumnName& name) {
   if (name.parts.empty()) return "";
   const std::string& last = name.parts.back();
-  if (is_one_of(last, {"roll", "pitch", "yaw"})) return last;
-  if (is_one_of(last, {"t", "time", "timestamp", "stamp"})) return "time";
+  if (is_one_of(last, {"roll", "pitch", "yaw", "heading"})) return last;
+  if (is_one_of(last, {"t", "time", "timestamp", "stamp", "gpstime"})) return "time";
+  if (last == "easting") return "x";
+  if (last == "northing") return "y";
+  if (last == "altitude") return "z";
   if (is_one_of(last, {"sec", "secs", "seconds"})) return "sec";
   if (is_one_of(last, {"nsec", "nsecs", "nanosec", "nanosecs", "nanosecond", "nanoseconds"})) {
     return "nsec";
@@ -109,6 +112,10 @@ std::optional<PoseColumns> columns_of(const PoseText& text) {
   columns.position = {found.at("x"), found.at("y"), found.at("z")};
   if (has_all(found, {"qx", "qy", "qz", "qw"})) {
     columns.turn = {found.at("qx"), found.at("qy"), found.at("qz"), found.at("qw")};
+  } else if (has_all(found, {"roll", "pitch", "heading"})) {
+    columns.rotation = Rotation::kBoreas;
+    const std::size_t heading = found.at("heading");
+    columns.turn = {found.at("roll"), found.at("pitch"), heading, heading};
   } else if (has_all(found, {"roll", "pitch", "yaw"})) {
     columns.rotation = Rotation::kEulerRadians;
     const std::size_t yaw = found.at("yaw");
@@ -178,7 +185,7 @@ PoseFile read_named_columns(const PoseText& text) {
 TextFormat named_columns_format() {
   return {{"csv",
            "columns in any order with a line of names above them: a time (or sec and nsec), x y z, "
-           "qx qy qz qw or roll pitch yaw"},
+           "qx qy qz qw or roll pitch yaw; also Boreas' easting ... heading"},
           match_named_columns,
           read_named_columns};
 }

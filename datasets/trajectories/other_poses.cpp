@@ -44,7 +44,7 @@ PoseFile read_g2o(const PoseText& text) {
     if (!id) throw DataError(where + ": the id of a vertex is a whole number from 0 on.");
     std::vector<double> numbers(columns.count, 0.0);
     for (std::size_t i = 2; i < columns.count; ++i) numbers[i] = text.number(row, i);
-    const PoseFile::Row pose{pose_matrix(numbers, columns, where), row.line, std::nullopt};
+    const PoseFile::Row pose{.matrix = pose_matrix(numbers, columns, where), .line = row.line};
     if (!vertices.emplace(*id, pose).second) {
       throw DataError(where + ": there is a vertex " + std::to_string(*id) + " above already.");
     }
@@ -140,9 +140,8 @@ PoseFile read_array(const std::filesystem::path& path) {
       values[k] = number_at(head.body.data() + place_of(head, i, k, numbers) * size, size,
                             number.big_endian);
     }
-    file.rows.push_back(
-        {pose_matrix(values, columns, path.string() + ": pose " + std::to_string(i + 1)), i + 1,
-         std::nullopt});
+    const std::string where = path.string() + ": pose " + std::to_string(i + 1);
+    file.rows.push_back({.matrix = pose_matrix(values, columns, where), .line = i + 1});
   }
   return file;
 }
@@ -172,9 +171,8 @@ PoseFile read_key_poses(const std::filesystem::path& path) {
     const std::vector<double> numbers = {records.value(i, at.x),   records.value(i, at.y),
                                          records.value(i, at.z),   records.value(i, *roll),
                                          records.value(i, *pitch), records.value(i, *yaw)};
-    file.rows.push_back(
-        {pose_matrix(numbers, columns, path.string() + ": pose " + std::to_string(i + 1)), i + 1,
-         std::nullopt});
+    const std::string where = path.string() + ": pose " + std::to_string(i + 1);
+    file.rows.push_back({.matrix = pose_matrix(numbers, columns, where), .line = i + 1});
     if (time != nullptr) times.push_back(number_text(records.value(i, *time)));
   }
   if (time == nullptr) return file;

@@ -64,18 +64,32 @@ const TextFormat& format_of(const PoseText& text, const PoseReading& reading) {
   throw_unknown(text);
 }
 
-/// Times that are equal, or that run backwards, belong to no trajectory.
-void check_times(const PoseFile& file) {
+/// Puts the rows in order of time.
+void sort_rows(PoseFile& file) {
+  const auto earlier = [](const auto& a, const auto& b) { return a.stamp < b.stamp; };
+  std::size_t late = 0;
   for (std::size_t i = 1; i < file.rows.size(); ++i) {
-    const auto &before = file.rows[i - 1].stamp, &stamp = file.rows[i].stamp;
-    if (!stamp || *stamp > *before) continue;
-    const bool same = *stamp == *before;
-    throw DataError(file.place(i) + ": time " + stamp_text(*stamp) + " s is " +
-                    (same ? "that of the row above" : "before that of the row above") +
-                    "; expected times that increase." +
-                    (same ? " If times are equal because they were written with too few digits, "
-                            "write them with all (nine behind the point)."
-                          : ""));
+    late += earlier(file.rows[i], file.rows[i - 1]) ? 1 : 0;
+  }
+  if (late == 0) return;
+  std::stable_sort(file.rows.begin(), file.rows.end(), earlier);
+  file.notes.push_back(file.path.string() + ": " + counted_text(late, "row") +
+                       " stood behind a later one; the rows were sorted by time.");
+}
+
+/// Poses of one time that are far apart belong to no trajectory.
+void check_times(const PoseFile& file) {
+  constexpr double kFarthest = 0.2;  // Metres.
+  for (std::size_t i = 1; i < file.rows.size(); ++i) {
+    const PoseFile::Row &before = file.rows[i - 1], &row = file.rows[i];
+    if (!row.stamp || *row.stamp != *before.stamp) continue;
+    const double distance = (row.matrix.col(3) - before.matrix.col(3)).norm();
+    if (!(distance > kFarthest)) continue;  // Nor if one of them is no pose.
+    throw DataError(file.place(i) + ": time " + stamp_text(*row.stamp) + " s is that of line " +
+                    std::to_string(before.line) + ", but the poses are " + number_text(distance) +
+                    " m apart; expected one pose a time, or poses within 0.2 m. If times are equal "
+                    "because they were written with too few digits, write them with all (nine "
+                    "behind the point).");
   }
 }
 
@@ -134,6 +148,10 @@ PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& as
   if (file.rows.empty()) {
     throw DataError(path.string() + ": holds no pose; expected one a row. " + kList);
   }
+  const bool any = std::any_of(file.rows.begin(), file.rows.end(),
+                               [](const PoseFile::Row& row) { return row.has_pose(); });
+  if (!any) (void)rigid_pose(file, 0);  // Says that it is not finite.
+  if (file.stamped()) sort_rows(file);
   check_times(file);
   for (PoseFile::Row& row : file.rows) {
     if (inverse) row.matrix = inverse_of(row.matrix);
@@ -145,13 +163,68 @@ Pose rigid_pose(const PoseFile& file, std::size_t row) {
   return rigid_pose(file.rows[row].matrix, file.place(row));
 }
 
+namespace {
+
+/// The pose at `stamp` of the motion from `a` to `b` that goes on beyond them.
+StampedPose continued(const StampedPose& a, const StampedPose& b, Nanoseconds stamp) {
+  const double share =
+      static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp);
+  return {stamp, a.T_world_body * part_of(a.T_world_body.inverse() * b.T_world_body, share)};
+}
+
+/// Gives the first and last rows a pose if they have none and the next one is near in time. Without
+/// it the scans at the ends would be lost, since nothing else is extrapolated.
+void continue_ends(const PoseFile& file, std::vector<StampedPose>& poses) {
+  constexpr Nanoseconds kNear = 200'000'000;
+  if (poses.size() < 2) return;
+  const Nanoseconds first = *file.rows.front().stamp, last = *file.rows.back().stamp;
+  const std::size_t n = poses.size();
+  if (last > poses[n - 1].stamp && last - poses[n - 1].stamp <= kNear &&
+      poses[n - 1].stamp - poses[n - 2].stamp <= kNear) {
+    poses.push_back(continued(poses[n - 2], poses[n - 1], last));
+  }
+  if (first < poses[0].stamp && poses[0].stamp - first <= kNear &&
+      poses[1].stamp - poses[0].stamp <= kNear) {
+    poses.insert(poses.begin(), continued(poses[0], poses[1], first));
+  }
+}
+
+}  // namespace
+
+std::vector<StampedPose> stamped_poses(const PoseFile& file, std::vector<std::string>& notes) {
+  std::vector<StampedPose> poses;
+  std::size_t none = 0, equal = 0, same = 1;
+  for (std::size_t i = 0; i < file.rows.size(); ++i) {
+    if (!file.rows[i].has_pose()) {
+      ++none;
+      continue;
+    }
+    const StampedPose pose{*file.rows[i].stamp, rigid_pose(file, i)};
+    const bool again = !poses.empty() && poses.back().stamp == pose.stamp;
+    same = again ? same + 1 : 1;
+    if (!again) {
+      poses.push_back(pose);
+      continue;
+    }
+    ++equal;
+    poses.back().T_world_body =
+        interpolated(poses.back().T_world_body, pose.T_world_body, 1.0 / static_cast<double>(same));
+  }
+  continue_ends(file, poses);
+  const auto note = [&](std::size_t count, const char* what) {
+    if (count == 0) return;
+    notes.push_back(file.path.string() + ": " + grouped_text(count) + " of " +
+                    counted_text(file.rows.size(), "row") + what);
+  };
+  note(none, " hold nan in place of a pose and are not used.");
+  note(equal, " have the time of the row before; the poses of one time are averaged.");
+  return poses;
+}
+
 Trajectory trajectory_of(const PoseFile& file) {
   if (!file.stamped()) throw InternalError("a trajectory of poses without times");
-  std::vector<StampedPose> poses;
-  for (std::size_t i = 0; i < file.rows.size(); ++i) {
-    poses.push_back({*file.rows[i].stamp, rigid_pose(file, i)});
-  }
-  return Trajectory(std::move(poses));
+  std::vector<std::string> ignored;
+  return Trajectory(stamped_poses(file, ignored));
 }
 
 }  // namespace raymoval

@@ -18,7 +18,12 @@ struct PoseFile {
   struct Row {
     Eigen::Matrix<double, 3, 4> matrix;
     std::size_t line = 0;  ///< Counted from 1: the line of a text, else the number of the pose.
-    std::optional<Nanoseconds> stamp;  ///< All rows have one, or none has.
+    std::optional<Nanoseconds> stamp = std::nullopt;  ///< All rows have one, or none has.
+    std::optional<long> frame =
+        std::nullopt;  ///< Number of its scan; all rows have one, or none has.
+
+    /// False for a row in which the program that wrote it has no pose (nan).
+    [[nodiscard]] bool has_pose() const { return matrix.allFinite(); }
   };
   std::filesystem::path path;
   std::string format;            ///< Its name in the list of formats, "tum".
@@ -50,17 +55,22 @@ struct PoseReading {
 };
 
 /// Reads a pose file of any form that `pose_format_names` lists. Empty lines and comments (#) are
-/// skipped. Times are exact to the nanosecond, and increase.
+/// skipped. Times are exact to the nanosecond. Rows are put in their order; equal ones may be
+/// there.
 /// @throws DataError with file, line and column for what is no number, with file and line for a
 ///   wrong count of numbers, a quaternion that is not of unit length, a fourth row that is not 0 0
-///   0 1, or a time that does not come after the one before; with the remedy for a file whose form
-///   cannot be told. UsageError for an unknown name of a format
+///   0 1, or two poses of one time that are more than 0.2 m apart; with the remedy for a file whose
+///   form cannot be told. UsageError for an unknown name of a format
 PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& reading = {});
 
 /// Row `row` as a rigid motion. @throws DataError as `rigid_pose` of a matrix, naming file and line
 Pose rigid_pose(const PoseFile& file, std::size_t row);
 
-/// The poses of a file with times. @throws InternalError if it has none, DataError as above
+/// The poses of a file with times: rows without a pose are left out (at the ends the motion
+/// goes on for up to 0.2 s), and those of one time are averaged. @param notes gets how many these
+/// are @throws DataError as above, and for no pose
+std::vector<StampedPose> stamped_poses(const PoseFile& file, std::vector<std::string>& notes);
+/// The same as a trajectory. @throws InternalError if it has no times, DataError as above
 Trajectory trajectory_of(const PoseFile& file);
 
 }  // namespace raymoval

@@ -49,8 +49,17 @@ bool PoseText::is_blank_or_comment(std::string_view line) {
 }
 
 std::vector<std::string_view> PoseText::split_words(std::string_view line) const {
-  if (separator_ == ' ') return split_blanks(line);
-  line = without_blanks(line);
+  line = without_blanks(line.substr(0, line.find('#')));
+  if (separator_ == ' ') {
+    std::vector<std::string_view> words = split_blanks(line);
+    if (words.size() < 2) return words;
+    const std::string_view both =
+        line.substr(0, static_cast<std::size_t>(words[1].data() + words[1].size() - line.data()));
+    if (!parse_date(both)) return words;
+    words.erase(words.begin());
+    words.front() = both;
+    return words;
+  }
   if (line.ends_with(separator_)) line.remove_suffix(1);
   std::vector<std::string_view> words = split(line, separator_);
   for (std::string_view& word : words) word = without_blanks(word);
@@ -120,11 +129,6 @@ Eigen::Vector3d chosen(const std::vector<double>& numbers, const std::size_t* at
   return {numbers[at[0]], numbers[at[1]], numbers[at[2]]};
 }
 
-void check_finite(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::string& where) {
-  if (a.allFinite() && b.allFinite()) return;
-  throw DataError(where + ": the pose holds a number that is not finite (nan or inf).");
-}
-
 Matrix3x4 with_position(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position) {
   Matrix3x4 matrix;
   matrix << rotation, position;
@@ -153,6 +157,19 @@ Eigen::Matrix3d euler_rotation(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
+/// Whether a number of the pose is not finite.
+bool lacks_pose(const std::vector<double>& numbers, const PoseColumns& columns) {
+  const auto bad = [&](std::size_t at) { return !std::isfinite(numbers[at]); };
+  const bool whole =
+      columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4;
+  if (!whole) {
+    return std::any_of(columns.position.begin(), columns.position.end(), bad) ||
+           std::any_of(columns.turn.begin(), columns.turn.end(), bad);
+  }
+  const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(columns.matrix);
+  return !std::all_of(begin, begin + 12, [](double number) { return std::isfinite(number); });
+}
+
 Eigen::Matrix3d vector_rotation(const Eigen::Vector3d& vector) {
   const double angle = vector.norm();
   if (angle < 1e-12) return Eigen::Matrix3d::Identity();
@@ -163,6 +180,7 @@ Eigen::Matrix3d vector_rotation(const Eigen::Vector3d& vector) {
 
 Matrix3x4 pose_matrix(const std::vector<double>& numbers, const PoseColumns& columns,
                       const std::string& where) {
+  if (lacks_pose(numbers, columns)) return Matrix3x4::Constant(std::nan(""));
   if (columns.rotation == Rotation::kMatrix3x4) return matrix_at(&numbers[columns.matrix]);
   if (columns.rotation == Rotation::kMatrix4x4) {
     check_last_row(&numbers[columns.matrix + 12], where);
@@ -174,9 +192,11 @@ Matrix3x4 pose_matrix(const std::vector<double>& numbers, const PoseColumns& col
     const double w = numbers[columns.turn[3]];
     return rigid_pose(position, {w, turn.x(), turn.y(), turn.z()}, where).matrix().topRows<3>();
   }
-  check_finite(position, turn, where);
   if (columns.rotation == Rotation::kVector) {
     return with_position(vector_rotation(turn), position);
+  }
+  if (columns.rotation == Rotation::kBoreas) {
+    return with_position(euler_rotation(turn).transpose(), position);
   }
   const double unit = columns.rotation == Rotation::kEulerDegrees ? kDegree : 1.0;
   return with_position(euler_rotation(unit * turn), position);
@@ -209,8 +229,12 @@ void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
 /// The numbers of a row; 0 for words that are not used and no numbers.
 std::vector<double> used_numbers(const PoseText& text, const TextRow& row,
                                  const PoseColumns& columns) {
-  if (columns.others_are_numbers) return text.numbers(row);
   std::vector<double> numbers(row.words.size(), 0.0);
+  for (std::size_t i = 0; columns.others_are_numbers && i < numbers.size(); ++i) {
+    const bool date = i == columns.time && parse_date(row.words[i]);
+    if (!date) numbers[i] = text.number(row, i);
+  }
+  if (columns.others_are_numbers) return numbers;
   for (const std::size_t at : columns.position) numbers[at] = text.number(row, at);
   for (const std::size_t at : columns.turn) numbers[at] = text.number(row, at);
   return numbers;
@@ -221,6 +245,7 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
   file.path = text.path();
   file.has_quaternions = columns.rotation == Rotation::kQuaternion;
   std::vector<std::string_view> times, nanoseconds;
+  std::size_t dropped = 0;
   text.for_each_row([&](const TextRow& row) {
     const std::string where = text.place(row.line);
     if (row.words.size() != columns.count) {
@@ -230,12 +255,23 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
                       std::to_string(columns.count) +
                       " as in the rows above; the row looks cut or doubled.");
     }
-    file.rows.push_back(
-        {pose_matrix(used_numbers(text, row, columns), columns, where), row.line, std::nullopt});
+    const std::vector<double> numbers = used_numbers(text, row, columns);
+    file.rows.push_back({.matrix = pose_matrix(numbers, columns, where), .line = row.line});
+    const bool timeless = columns.time && !file.rows.back().has_pose() &&
+                          std::isnan(parse_number<double>(row.words[*columns.time]).value_or(0.0));
+    if (timeless) {
+      file.rows.pop_back();
+      ++dropped;
+      return;
+    }
     if (columns.time) times.push_back(row.words[*columns.time]);
     if (columns.nanoseconds) nanoseconds.push_back(row.words[*columns.nanoseconds]);
   });
   if (columns.time) set_stamps(file, times, nanoseconds, columns.unit);
+  if (dropped > 0) {
+    file.notes.push_back(file.path.string() + ": " + counted_text(dropped, "row") +
+                         " with nan for time and pose are left out.");
+  }
   return file;
 }
 

@@ -67,6 +67,7 @@ class PoseText {
 
  private:
   static bool is_blank_or_comment(std::string_view line);
+  /// What stands behind a # is no word; a date and the time of day behind it are one.
   [[nodiscard]] std::vector<std::string_view> split_words(std::string_view line) const;
   void look_at_head();
 
@@ -86,6 +87,7 @@ enum class Rotation {
   kVector,        ///< Axis times angle, radians.
   kEulerRadians,  ///< Roll, pitch, yaw of Rz(yaw) Ry(pitch) Rx(roll).
   kEulerDegrees,
+  kBoreas,  ///< Roll, pitch, heading of Rx(-roll) Ry(-pitch) Rz(-heading), as pyboreas has them.
 };
 
 /// Which of the numbers of a row mean what.

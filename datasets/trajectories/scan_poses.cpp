@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/trajectories/scan_poses.h"
 
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -46,10 +48,8 @@ void refuse_offset(const PoseSettings& settings, const std::string& why) {
 ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
   ScanPoses result;
   result.stamps = scans.stamps;
-  std::vector<StampedPose> poses;
-  for (std::size_t i = 0; i < file.rows.size(); ++i) {
-    poses.push_back({*file.rows[i].stamp, body_pose(rigid_pose(file, i), settings)});
-  }
+  std::vector<StampedPose> poses = stamped_poses(file, result.notes);
+  for (StampedPose& pose : poses) pose.T_world_body = body_pose(pose.T_world_body, settings);
   // What goes along a straight line from pose to pose is the body, not a sensor beside its middle.
   std::vector<MotionStep> steps(2);
   steps[0].moving = Trajectory(std::move(poses));
@@ -59,7 +59,23 @@ ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSetting
   FoundPoses found = look_up_poses(scans.stamps, *result.motion, file.path.string());
   result.poses = std::move(found.poses);
   result.losses = std::move(found.losses);
+  result.gap = std::move(found.gap);
   return result;
+}
+
+/// Says how many of the scans have no pose. @throws PosesMissing if it is half of them or more
+void tell_missing(const PoseFile& file, const std::string& why, const std::string& remedy,
+                  ScanPoses& result) {
+  const auto missing =
+      static_cast<std::size_t>(std::count(result.poses.begin(), result.poses.end(), std::nullopt));
+  if (missing == 0) return;
+  const PoseGap gap{file.path.string(),
+                    grouped_text(missing) + " of " + counted_text(result.poses.size(), "scan") +
+                        " have no pose: " + why,
+                    remedy};
+  if (2 * missing >= result.poses.size()) throw PosesMissing(gap);
+  if (4 * missing >= result.poses.size()) result.gap = gap;
+  result.losses.push_back(gap.where + ": " + gap.what + ". They are left out.");
 }
 
 ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
@@ -67,8 +83,12 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
                                          : "the poses have no times");
   ScanPoses result;
   for (const std::size_t row : scans.rows) {
-    result.poses.emplace_back(sensor_pose(rigid_pose(file, row), settings));
+    result.poses.emplace_back();
+    if (file.rows[row].has_pose()) {
+      result.poses.back() = sensor_pose(rigid_pose(file, row), settings);
+    }
   }
+  tell_missing(file, "their rows hold nan", "Take a trajectory with a pose for each scan.", result);
   result.stamps = assumed_stamps(scans, &file);
   if (file.stamped() && scans.stamps.empty()) {
     const Nanoseconds first = *file.rows.front().stamp;
@@ -80,12 +100,45 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
   return result;
 }
 
+/// Poses that name the frames they belong to.
+ScanPoses by_frame(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
+  refuse_offset(settings, "the poses have no times");
+  std::map<long, std::size_t> rows;
+  for (std::size_t i = 0; i < file.rows.size(); ++i) rows.emplace(*file.rows[i].frame, i);
+  ScanPoses result;
+  for (std::size_t i = 0; i < scans.rows.size(); ++i) {
+    const long frame = scans.frames.empty() ? static_cast<long>(scans.rows[i]) : scans.frames[i];
+    const auto row = rows.find(frame);
+    result.poses.emplace_back();
+    if (row != rows.end() && file.rows[row->second].has_pose()) {
+      result.poses.back() = sensor_pose(rigid_pose(file, row->second), settings);
+    }
+  }
+  tell_missing(file,
+               "the file has those of " + counted_text(rows.size(), "frame") + " from " +
+                   std::to_string(rows.begin()->first) + " to " +
+                   std::to_string(rows.rbegin()->first),
+               "Take the file that belongs to these scans, whose names are frame numbers.", result);
+  result.stamps = assumed_stamps(scans, nullptr);
+  result.motion = motion_along(result.stamps, result.poses);
+  return result;
+}
+
 ScanPoses one_for_all(const Pose& pose, const ScanKeys& scans) {
   ScanPoses result;
   result.poses.assign(scans.rows.size(), pose);
   result.stamps = assumed_stamps(scans, nullptr);
   result.motion = motion_along(result.stamps, result.poses);
   return result;
+}
+
+/// `file` with the first row of each time only.
+PoseFile without_repeats(PoseFile file) {
+  const auto same = [](const PoseFile::Row& a, const PoseFile::Row& b) {
+    return a.stamp && a.stamp == b.stamp;
+  };
+  file.rows.erase(std::unique(file.rows.begin(), file.rows.end(), same), file.rows.end());
+  return file;
 }
 
 [[noreturn]] void throw_rows(const PoseFile& file, const ScanKeys& scans) {
@@ -136,11 +189,14 @@ ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSett
     result = one_for_all(sensor_pose(rigid_pose(file, 0), settings), scans);
     result.notes.push_back(file.path.string() +
                            ": holds one pose, which counts for all scans: the sensor stands.");
+  } else if (file.rows.front().frame) {
+    result = by_frame(file, scans, settings);
   } else if (file.stamped() && !scans.stamps.empty()) {
     result = by_time(file, scans, settings);
   } else {
-    if (!fits_rows(file, scans)) throw_rows(file, scans);
-    result = by_row(file, scans, settings);
+    const PoseFile distinct = fits_rows(file, scans) ? file : without_repeats(file);
+    if (!fits_rows(distinct, scans)) throw_rows(file, scans);
+    result = by_row(distinct, scans, settings);
   }
   if (result.times_s.empty()) result.times_s = scans.times_s;
   result.notes.insert(result.notes.begin(), file.notes.begin(), file.notes.end());

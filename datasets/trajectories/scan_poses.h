@@ -28,6 +28,7 @@ struct PoseSettings {
 struct ScanKeys {
   /// Row of the pose file for each scan, for poses that belong to scans by their order.
   std::vector<std::size_t> rows;
+  std::vector<long> frames = {};  ///< Number of each scan in its name; empty: it is in `rows`.
   std::size_t row_count = 0;  ///< Rows that the file has at least then; the highest of `rows` + 1.
   bool more_rows = false;     ///< Whether the file may have more of them.
   std::string extent;         ///< For messages: "2 scans, a.pcd to b.pcd".
@@ -49,6 +50,7 @@ struct ScanPoses {
   std::shared_ptr<const SensorMotion> motion;
   std::vector<std::string> notes;   ///< How the file was read.
   std::vector<std::string> losses;  ///< How many scans have no pose.
+  std::optional<PoseGap> gap;       ///< As in `FoundPoses`.
 };
 
 /// Whether the rows of `file` fit scans by their order.
@@ -57,6 +59,7 @@ bool fits_rows(const PoseFile& file, const ScanKeys& scans);
 /// The poses of scans:
 /// - a file with one pose is that of all scans, for a sensor that stands;
 /// - a file with times is looked up by time if the scans have times (see `look_up_poses`);
+/// - a file with numbers of frames has a pose for the scans of these numbers;
 /// - in all other files a row belongs to a scan by its order.
 /// @throws DataError if the rows do not fit the scans, a pose is damaged, or as `look_up_poses`;
 ///   UsageError for a shift of the clock where poses do not go by time

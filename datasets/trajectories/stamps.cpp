@@ -69,31 +69,6 @@ std::optional<Nanoseconds> whole_number(const Decimal& decimal, int shift) {
   return decimal.negative ? -value : value;
 }
 
-/// "2011-09-26 13:02:25.964389445" in UTC, or nothing.
-std::optional<Nanoseconds> parse_date(std::string_view text) {
-  if (text.size() < 19 || text[4] != '-' || text[7] != '-' || text[13] != ':' || text[16] != ':' ||
-      (text[10] != ' ' && text[10] != 'T')) {
-    return std::nullopt;
-  }
-  const auto part = [&](std::size_t at, std::size_t size) {
-    const std::string_view digits = text.substr(at, size);
-    return all_digits(digits) ? parse_number<int>(digits) : std::nullopt;
-  };
-  const auto year = part(0, 4), month = part(5, 2), day = part(8, 2), hour = part(11, 2),
-             minute = part(14, 2);
-  if (!year || !month || !day || !hour || !minute || *hour > 23 || *minute > 59) {
-    return std::nullopt;
-  }
-  const auto seconds = parse_stamp(text.substr(17), TimeUnit::kSeconds);
-  const std::chrono::year_month_day date(std::chrono::year(*year),
-                                         std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day)));
-  if (!seconds || *seconds < 0 || *seconds >= 61'000'000'000 || !date.ok()) return std::nullopt;
-  if (*year < 1900 || *year > 2100) return std::nullopt;
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return ((static_cast<Nanoseconds>(days) * 24 + *hour) * 60 + *minute) * 60'000'000'000 + *seconds;
-}
-
 /// Since 1973 and before 2109.
 bool is_since_1970(Nanoseconds stamp) {
   return stamp > 100'000'000'000'000'000 && stamp < kMostStamp;
@@ -130,32 +105,174 @@ std::vector<std::string_view> content_lines(std::string_view text) {
   return lines;
 }
 
-/// @param unpadded whether what stands behind a point are nanoseconds without their leading zeros
-std::optional<Nanoseconds> stamp_in_name(std::string_view stem, bool unpadded) {
-  constexpr std::size_t kShortestSeconds = 9;  // In 1973.
-  const std::size_t mark = stem.find_first_of("._");
-  if (mark == std::string_view::npos) {
-    if (!all_digits(stem) || stem.size() != kShortestSeconds + 10) return std::nullopt;
-    const auto stamp = parse_stamp(stem, TimeUnit::kNanoseconds);
-    return stamp && is_since_1970(*stamp) ? stamp : std::nullopt;
+/// A time in a name: its seconds, and the digits behind the mark that follows them.
+struct NameTime {
+  std::string_view seconds, part;
+  bool since_1970 = true;
+  bool marked = true;  ///< Whether a mark stands between the two.
+};
+
+std::string_view digits_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && all_digits(text.substr(end, 1))) ++end;
+  return text.substr(at, end - at);
+}
+
+/// The time that begins with the digits `run` of `stem`, which stand at `at`.
+std::optional<NameTime> time_at(std::string_view stem, std::size_t at, std::string_view run) {
+  constexpr std::size_t kSeconds = 10;
+  const std::string_view seconds = run.substr(0, kSeconds);
+  const auto whole = parse_stamp(seconds, TimeUnit::kSeconds);
+  if (run.size() < kSeconds - 1 || !whole || !is_since_1970(*whole)) return std::nullopt;
+  if (run.size() > kSeconds) {
+    const bool usual = run.size() == 13 || run.size() == 16 || run.size() == 19;
+    return usual ? std::optional(NameTime{seconds, run.substr(kSeconds), true, false})
+                 : std::nullopt;
   }
-  const std::string_view seconds = stem.substr(0, mark), part = stem.substr(mark + 1);
-  if (!all_digits(seconds) || !all_digits(part) || seconds.empty() || part.empty()) {
+  const std::size_t mark = at + run.size();
+  const bool marked =
+      mark < stem.size() && std::string_view("._-").find(stem[mark]) != std::string_view::npos;
+  const std::string_view part = marked ? digits_at(stem, mark + 1) : std::string_view{};
+  if (part.empty() && run.size() < kSeconds) return std::nullopt;
+  return NameTime{seconds, part};
+}
+
+std::optional<NameTime> time_in_name(std::string_view stem) {
+  for (std::size_t at = 0; at < stem.size();) {
+    const std::string_view run = digits_at(stem, at);
+    if (const auto time = time_at(stem, at, run)) return time;
+    at += std::max<std::size_t>(run.size(), 1);
+  }
+  const std::string_view whole = digits_at(stem, 0);
+  if (whole.empty() || whole.size() >= stem.size() || stem[whole.size()] != '.') {
     return std::nullopt;
   }
-  const auto whole = parse_stamp(seconds, TimeUnit::kSeconds);
-  const bool nine = part.size() == static_cast<std::size_t>(kNanosecondDigits);
-  if (!whole || (!is_since_1970(*whole) && !(stem[mark] == '.' && nine))) return std::nullopt;
-  if (stem[mark] == '.' && !unpadded) return parse_stamp(stem, TimeUnit::kSeconds);
-  const auto nanoseconds = parse_stamp(part, TimeUnit::kNanoseconds);
-  if (!nanoseconds || *nanoseconds >= 1'000'000'000) return std::nullopt;
-  return *whole + *nanoseconds;
+  const std::string_view part = stem.substr(whole.size() + 1);
+  if (part.empty() || !all_digits(part)) return std::nullopt;
+  return NameTime{whole, part, false};
+}
+
+/// A way to read the digits behind the seconds.
+struct NameReading {
+  int digits = 0;  ///< They count 10^-digits s each, without leading zeros; 0: they are decimals.
+  std::vector<Nanoseconds> stamps = {};
+  double cost = 0.0;
+};
+
+/// The ways in which the digits behind the seconds can be read. A number of varying length has no
+/// leading zeros, and decimals of varying length have no trailing ones.
+std::vector<NameReading> name_readings(const std::vector<NameTime>& times) {
+  std::size_t longest = 0, shortest = std::string_view::npos;
+  bool leading = false, trailing = false, unmarked = false;
+  for (const NameTime& time : times) {
+    longest = std::max(longest, time.part.size());
+    shortest = std::min(shortest, time.part.size());
+    leading = leading || (time.part.size() > 1 && time.part.starts_with('0'));
+    trailing = trailing || (time.part.size() > 1 && time.part.ends_with('0'));
+    unmarked = unmarked || !time.marked || !time.since_1970;
+  }
+  std::vector<NameReading> readings;
+  if (longest == shortest || !trailing) readings.push_back({0});
+  for (const int digits : {3, 6, kNanosecondDigits}) {
+    if (longest > static_cast<std::size_t>(digits)) continue;
+    if (longest != shortest && !leading && !unmarked) readings.push_back({digits});
+    break;
+  }
+  return readings;
+}
+
+std::optional<Nanoseconds> stamp_of(const NameTime& time, int digits) {
+  if (digits == 0) {
+    return parse_stamp(std::string(time.seconds) + "." + std::string(time.part),
+                       TimeUnit::kSeconds);
+  }
+  const auto whole = parse_stamp(time.seconds, TimeUnit::kSeconds);
+  const auto part =
+      time.part.empty() ? Nanoseconds{0} : parse_stamp(time.part, static_cast<TimeUnit>(digits));
+  if (!whole || !part) return std::nullopt;
+  return *whole + *part;
+}
+
+/// Fills in the times and their cost: the share that lies outside `span`, and how unevenly they
+/// follow each other. @return false if two are equal, or nearer than those of any sensor
+bool read_names(const std::vector<NameTime>& times,
+                const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span,
+                NameReading& reading) {
+  constexpr double kLeastSpacing = 5e6;  // Nanoseconds.
+  double outside = 0.0;
+  for (const NameTime& time : times) {
+    const auto stamp = stamp_of(time, reading.digits);
+    if (!stamp) return false;
+    reading.stamps.push_back(*stamp);
+    if (span && (*stamp < span->first || *stamp > span->second)) outside += 1.0;
+  }
+  std::vector<Nanoseconds> sorted = reading.stamps;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i] == sorted[i - 1]) return false;
+    gaps.push_back(static_cast<double>(sorted[i] - sorted[i - 1]));
+  }
+  reading.cost = outside / static_cast<double>(times.size());
+  if (gaps.empty()) return true;
+  const double usual = median(gaps);
+  double uneven = 0.0;
+  for (const double gap : gaps) uneven += std::abs(gap - usual) / usual;
+  reading.cost += std::min(1.0, uneven / static_cast<double>(gaps.size()));
+  return usual >= kLeastSpacing;
 }
 
 }  // namespace
 
 std::optional<Nanoseconds> parse_stamp(std::string_view text) {
   return parse_stamp(text, TimeUnit::kSeconds);
+}
+
+namespace {
+
+/// Takes "Z", "+01:00" or "-0530" off the end of a time of day. @return the shift in nanoseconds
+Nanoseconds take_time_zone(std::string_view& text) {
+  if (text.ends_with('Z')) text.remove_suffix(1);
+  const std::size_t sign = text.find_first_of("+-");
+  if (sign == std::string_view::npos) return 0;
+  std::string digits(text.substr(sign + 1));
+  std::erase(digits, ':');
+  const auto value =
+      all_digits(digits) && digits.size() == 4 ? parse_number<int>(digits) : std::nullopt;
+  if (!value) return 0;  // The sign stays, so that this is no time.
+  const Nanoseconds shift = (*value / 100 * 60 + *value % 100) * 60'000'000'000;
+  const bool negative = text[sign] == '-';
+  text = text.substr(0, sign);
+  return negative ? -shift : shift;
+}
+
+}  // namespace
+
+std::optional<Nanoseconds> parse_date(std::string_view text) {
+  if (text.size() < 19 || text[4] != '-' || text[7] != '-' || text[13] != ':' || text[16] != ':' ||
+      (text[10] != ' ' && text[10] != 'T')) {
+    return std::nullopt;
+  }
+  const auto part = [&](std::size_t at, std::size_t size) {
+    const std::string_view digits = text.substr(at, size);
+    return all_digits(digits) ? parse_number<int>(digits) : std::nullopt;
+  };
+  const auto year = part(0, 4), month = part(5, 2), day = part(8, 2), hour = part(11, 2),
+             minute = part(14, 2);
+  if (!year || !month || !day || !hour || !minute || *hour > 23 || *minute > 59) {
+    return std::nullopt;
+  }
+  std::string_view rest = text.substr(17);
+  const Nanoseconds zone = take_time_zone(rest);
+  const auto seconds = parse_stamp(rest, TimeUnit::kSeconds);
+  const std::chrono::year_month_day date(std::chrono::year(*year),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day)));
+  if (!seconds || *seconds < 0 || *seconds >= 61'000'000'000 || !date.ok()) return std::nullopt;
+  if (*year < 1900 || *year > 2100) return std::nullopt;
+  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
+  return ((static_cast<Nanoseconds>(days) * 24 + *hour) * 60 + *minute) * 60'000'000'000 +
+         *seconds - zone;
 }
 
 const char* time_unit_name(TimeUnit unit) {
@@ -206,6 +323,26 @@ TimeUnit usual_time_unit(double first, double spacing) {
   return TimeUnit::kNanoseconds;
 }
 
+namespace {
+
+StampColumn parse_dates(const std::vector<std::string_view>& words,
+                        const std::function<std::string(std::size_t)>& place) {
+  StampColumn column;
+  column.unit = TimeUnit::kNanoseconds;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto date = parse_date(words[i]);
+    if (!date) {
+      throw DataError(place(i) + ": '" + std::string(words[i].substr(0, 40)) +
+                      "' is no date as in the lines above; expected one such as "
+                      "2011-09-26 13:02:25.964389445.");
+    }
+    column.stamps.push_back(*date);
+  }
+  return column;
+}
+
+}  // namespace
+
 StampColumn parse_stamps(const std::vector<std::string_view>& words, std::optional<TimeUnit> unit,
                          const std::function<std::string(std::size_t)>& place) {
   constexpr std::size_t kEnough = 1000;  // To see the usual spacing.
@@ -215,6 +352,7 @@ StampColumn parse_stamps(const std::vector<std::string_view>& words, std::option
     if (i > 0) steps.push_back(std::abs(rough[i] - rough[i - 1]));
   }
   StampColumn column;
+  if (!words.empty() && parse_date(words.front())) return parse_dates(words, place);
   if (!words.empty()) {
     const double spacing = steps.empty() ? 0.0 : median(std::move(steps));
     column.unit = unit.value_or(usual_time_unit(rough.front(), spacing));
@@ -227,17 +365,36 @@ StampColumn parse_stamps(const std::vector<std::string_view>& words, std::option
   return column;
 }
 
-std::optional<std::vector<Nanoseconds>> stamps_in_names(const std::vector<std::string>& stems) {
-  for (const bool nanoseconds : {false, true}) {
-    std::vector<Nanoseconds> stamps;
-    for (const std::string& stem : stems) {
-      const auto stamp = stamp_in_name(stem, nanoseconds);
-      if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) break;
-      stamps.push_back(*stamp);
-    }
-    if (!stems.empty() && stamps.size() == stems.size()) return stamps;
+std::optional<NameStamps> stamps_in_names(
+    const std::vector<std::string>& stems,
+    const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span) {
+  std::vector<NameTime> times;
+  for (const std::string& stem : stems) {
+    const auto time = time_in_name(stem);
+    const bool same = time && (times.empty() || time->since_1970 == times.front().since_1970);
+    if (!same) return std::nullopt;
+    times.push_back(*time);
   }
-  return std::nullopt;
+  if (times.empty()) return std::nullopt;
+  // A single "1.10" may be a version.
+  const bool sure = times.front().since_1970 || times.size() > 1 ||
+                    times.front().part.size() == static_cast<std::size_t>(kNanosecondDigits);
+  if (!sure) return std::nullopt;
+  std::vector<NameReading> readings;
+  for (NameReading reading : name_readings(times)) {
+    if (read_names(times, span, reading)) readings.push_back(std::move(reading));
+  }
+  if (readings.empty()) return std::nullopt;
+  const auto best = std::min_element(readings.begin(), readings.end(),
+                                     [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  NameStamps found{std::move(best->stamps), times.front().since_1970, ""};
+  if (readings.size() == 1) return found;
+  found.note = "the digits behind the seconds in the names of the scans are read as " +
+               (best->digits == 0 ? std::string("decimals")
+                                  : std::string("a number of ") +
+                                        time_unit_name(static_cast<TimeUnit>(best->digits))) +
+               ", by how evenly the scans then follow each other.";
+  return found;
 }
 
 StampColumn read_stamp_file(const std::filesystem::path& path) {
@@ -247,21 +404,8 @@ StampColumn read_stamp_file(const std::filesystem::path& path) {
     const auto above = std::count(text.data(), lines[i].data(), '\n');
     return path.string() + ": line " + std::to_string(above + 1);
   };
-  StampColumn column;
+  StampColumn column = parse_stamps(lines, std::nullopt, place);
   const bool numbers = lines.empty() || !parse_date(lines.front());
-  if (numbers) {
-    column = parse_stamps(lines, std::nullopt, place);
-  } else {
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto date = parse_date(lines[i]);
-      if (!date) {
-        throw DataError(place(i) + ": '" + std::string(lines[i].substr(0, 40)) +
-                        "' is no date as in the lines above; expected one such as "
-                        "2011-09-26 13:02:25.964389445.");
-      }
-      column.stamps.push_back(*date);
-    }
-  }
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const bool seconds = numbers && column.unit == TimeUnit::kSeconds;
     column.since_first.push_back(seconds ? rough_number(lines[i]) - rough_number(lines.front())

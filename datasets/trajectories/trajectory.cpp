@@ -160,13 +160,15 @@ FoundPoses look_up_poses(const std::vector<Nanoseconds>& stamps, const SensorMot
   const std::string share = grouped_text(found.missing) + " of " +
                             counted_text(stamps.size(), "scan") +
                             " have no pose: " + missing.reasons();
-  if (2 * found.missing >= stamps.size()) {
+  if (4 * found.missing >= stamps.size()) {
     const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
-    throw DataError(where + ": " + share + ". The scans are from " + range_text(*first, *last) +
-                    ", the poses from " + range_text(begin, end) +
-                    (motion.time_offset() == 0 ? "" : " on the clock of the scans") + ". " +
-                    remedy(stamps, motion, missing));
+    found.gap = {where,
+                 share + ". The scans are from " + range_text(*first, *last) + ", the poses from " +
+                     range_text(begin, end) +
+                     (motion.time_offset() == 0 ? "" : " on the clock of the scans"),
+                 remedy(stamps, motion, missing)};
   }
+  if (2 * found.missing >= stamps.size()) throw PosesMissing(*found.gap);
   found.losses.push_back(where + ": " + share + ". They are left out.");
   return found;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/scan/scan.h"
 
 namespace raymoval {
@@ -106,18 +107,35 @@ class SensorMotion {
   bool follows_scans_;
 };
 
+/// That many scans have no pose, for what inspection says of it.
+struct PoseGap {
+  std::string where, what, remedy;
+};
+
+/// Half of the scans or more have no pose.
+class PosesMissing : public DataError {
+ public:
+  explicit PosesMissing(PoseGap gap)
+      : DataError(gap.where + ": " + gap.what + ". " + gap.remedy), gap_(std::move(gap)) {}
+  [[nodiscard]] const PoseGap& gap() const { return gap_; }
+
+ private:
+  PoseGap gap_;
+};
+
 /// The poses of scans, and what a user should know of them.
 struct FoundPoses {
   std::vector<std::optional<Pose>> poses;  ///< T_world_sensor of each scan; nothing if unknown.
   std::size_t missing = 0;                 ///< Scans without a pose.
   std::vector<std::string> losses;         ///< Whole sentences; none if every scan has its pose.
+  std::optional<PoseGap> gap;              ///< If a quarter of the scans or more have no pose.
 };
 
 /// Looks up the pose of each scan. Scans that have none are to be left out, as long as they are
 /// fewer than half.
 /// @param stamps of the scans, in their order; at least one
 /// @param where the poses are from, for messages: a path, or a bag and topic
-/// @throws DataError naming both ranges of time, and the --time-offset or --max-gap that would
+/// @throws PosesMissing naming both ranges of time, and the --time-offset or --max-gap that would
 ///   help, if half of the scans or more have no pose
 FoundPoses look_up_poses(const std::vector<Nanoseconds>& stamps, const SensorMotion& motion,
                          const std::string& where);

@@ -119,7 +119,7 @@ Scan ArraySource::load(std::size_t index) const {
   read_returns(
       scan, PointFrame::kSensor, scan_text(index),
       [&](const Eigen::Vector3d&) { return points_->points(index); }, " Leave it out.");
-  if (scan.stored_index.empty()) return scan;
+  if (scan.stored_index.empty() && !scan.points.empty()) return scan;
   Mask left_out(scan.stored_point_count, 1);
   for (const std::uint32_t row : scan.stored_index) left_out[row] = 0;
   const std::lock_guard lock(mutex_);

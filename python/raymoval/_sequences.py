@@ -24,7 +24,7 @@ def open(path: Union[str, os.PathLike[str]], *, frames: Optional[str] = None,
     frames: "FIRST:LAST:STRIDE" of frame numbers, ends included; each may be left out.
     options: as `raymoval clean --help` lists them, with _ for -: poses, pose_format, T_sensor,
         time_offset, max_gap, points, point_layout, deskew, point_time_unit, label_rule, range,
-        sensor, up, drop_ego, name, topic, pose_topic.
+        sensor, up, drop_ego, skip_bad_scans, name, topic, pose_topic.
     Raises DataError, UsageError or ConfigurationError that say what was found and expected.
     """
     given = {key: value for key, value in options.items() if value is not None}

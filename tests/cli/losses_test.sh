@@ -46,6 +46,23 @@ warns "$lost" clean "${early[@]}" --method noop --quiet -o early.pcd
 silent clean drive --method noop --quiet -o whole.pcd
 expect 0 "$lost" inspect "${early[@]}" --quiet
 
+# A scan that is cut is refused, and left out on request.
+cp -r drive bad
+truncate -s 1000 bad/velodyne/000004.bin
+expect 2 "000004.bin: 1,000 bytes is not a multiple of 16" run bad --method noop --quiet --out bad_run
+cp err.txt said.txt
+holds "the remedy is named" grep -q "leave it out with --skip-bad-scans" said.txt
+skipped="1 of 9 scans cannot be read (000004.bin) and are left out, as asked by --skip-bad-scans."
+warns "suburb: $skipped" run bad --skip-bad-scans --method noop --quiet --out bad_run
+holds "the results say so" grep -qF "$skipped" bad_run/cells/suburb/noop-default/cell.json
+warns "$skipped" clean bad --skip-bad-scans --method noop --quiet -o bad.pcd
+
+# Labels of some scans are enough.
+rm bad/labels/000006.label
+: >bad/labels/000007.label
+partly="6 of 8 scans have labels in labels/; only these are scored."
+warns "suburb: $partly" run bad --skip-bad-scans --method noop --quiet --out partly
+
 # A recording that is cut, of which some scans are labelled.
 holds "a recording is made" \
   python3 -B "$source_folder/tests/cli/recipe_data.py" drive doals recording

@@ -204,7 +204,7 @@ TEST_CASE("a file cut at a whole point is named wherever it is", "[inspect][slow
   const auto path = folder / "drive/velodyne/000010.bin";
   fs::resize_file(path, fs::file_size(path) / 32 * 16);
   const InspectionReport report = inspect_path((folder / "drive").string(), {});
-  check_finds(report, "few-points", "--frames");
+  check_finds(report, "few-points", "Copy the scan again");
   CHECK(report.findings[0].where == "000010.bin");
   CHECK_THAT(report.findings[0].what, Catch::Contains("50 % of what the scans around it hold"));
 }

@@ -300,7 +300,7 @@ TEST_CASE("a count of labels that does not fit is named", "[inspect]") {
   EditedSequence drive = good_drive();
   drive.words[0].pop_back();
   const InspectionReport report = drive.inspected();
-  check_finds(report, "label-count", "--frames");
+  check_finds(report, "label-count", "not scored");
   CHECK_THAT(report.findings[0].where, Catch::Contains("scan 0"));
 }
 

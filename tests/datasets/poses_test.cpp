@@ -102,8 +102,6 @@ TEST_CASE("garbage in a pose file is named by line and column", "[poses]") {
              {"line 1", "11 numbers", "12 (KITTI", "8 (TUM"});
   check_says(pose_error(kIdentityRow + "1 0 0\n"), {"line 2", "3 numbers", "expected 12 as in"});
   check_says(pose_error("# nothing\n\n"), {"holds no pose"});
-  check_says(pose_error("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
-             {"line 2", "time 1.000000000 s", "before"});
 }
 
 TEST_CASE("a calibration row is found by its key", "[poses]") {

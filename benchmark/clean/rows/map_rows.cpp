@@ -87,7 +87,8 @@ PointRecords plain_rows(const Scan& scan, const RecordLayout& layout) {
 /// The stored rows that `scan` has points of, in another layout.
 PointRecords copied_rows(const Scan& scan, const PointRecords& stored, const RecordLayout& layout) {
   const RowCopy copy(stored.layout, layout);
-  if (copy.is_whole() && scan.stored_index.empty()) return {layout, stored.bytes, scan.size(), 1};
+  if (copy.is_whole() && scan.stored_index.empty() && !scan.points.empty())
+    return {layout, stored.bytes, scan.size(), 1};
   PointRecords rows = empty_rows(layout, scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
     copy.copy(stored.row(scan.stored_position(i)), rows.row(i));
@@ -125,7 +126,7 @@ void MapRows::check_fields(const Sequence& sequence, Progress& progress,
       throw DataError(records.place(i) + ": " + difference + ", unlike the first scan (" +
                       records.place(0) +
                       "). The points of a map all have the same fields, so nothing was written. "
-                      "Leave such scans out with --frames, or write them with the same fields.");
+                      "Write all scans with the same fields.");
     }
     progress.advance();
   }

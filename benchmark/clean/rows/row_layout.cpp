@@ -2,6 +2,7 @@
 #include "benchmark/clean/rows/row_layout.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "core/text.h"
 
@@ -9,7 +10,9 @@ namespace raymoval {
 namespace {
 
 bool is_position(const PointField& field) {
-  return field.count == 1 && (field.name == "x" || field.name == "y" || field.name == "z");
+  constexpr std::string_view kAxes = "xyzXYZ";
+  return field.count == 1 && field.name.size() == 1 &&
+         kAxes.find(field.name) != std::string_view::npos;
 }
 
 /// The bytes of x, y or z in a map in which points do not stand as they are stored.

@@ -224,6 +224,8 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
     text += counted_text(facts.range.left_out, "point") + " beyond --range " +
             flags.reading.text("range") + " are in no output.\n";
   }
+  const std::string empty = empty_scans_line(sequence);
+  if (!empty.empty()) print_warning(sequence.name + ": " + empty + ".");
   for (const std::string& line : left_out_lines(sequence)) text += line + ".\n";
   for (const std::string& line : sequence.notes) text += line + '\n';
   if (!facts.report.pose_fit.empty()) text += sequence.name + ": " + facts.report.pose_fit + ".\n";

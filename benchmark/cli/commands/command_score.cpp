@@ -180,7 +180,6 @@ std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
 /// Masks of another kind, such as those of 0 and 1, would be taken for an answer that removes
 /// nothing.
 void warn_of_labels(const LabelIds& found, const std::string& folder) {
-  if (has_removed_label(found)) return;
   print_warning(folder +
                 ": no point has a label from 251 to 259, so none counts as removed; found " +
                 label_ids_text(found) +
@@ -192,15 +191,16 @@ void score_predictions(ScoredSequence& scored, const std::string& folder, Progre
   const ScanSource& scans = *scored.sequence().scans;
   progress.begin("reading predictions", scans.size());
   const std::atomic<bool>& cancelled = interrupt_flag();
-  LabelIds found;
   const auto after_scan = [&] {
     progress.advance();
     if (cancelled) throw Cancelled();
   };
-  const MaskStore masks = read_removals(folder, scans, after_scan, &found);
+  const Predictions read =
+      read_predictions(folder, scans, scored.sequence().label_rule, after_scan);
   progress.end();
-  warn_of_labels(found, folder);
-  SequenceScores scores = scored.score(masks, &cancelled);
+  if (!read.note.empty()) progress.say(folder + ": " + read.note);
+  if (read.masks.removed_count() == 0) warn_of_labels(read.found.ids, folder);
+  SequenceScores scores = scored.score(read.masks, &cancelled);
   const std::vector<ProtocolRecord> protocols = protocol_records(scored);
   for (std::size_t i = 0; i < protocols.size(); ++i) {
     record.protocols.push_back({protocols[i], std::move(scores.protocols[i])});
@@ -288,13 +288,14 @@ std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   return suite.protocols;
 }
 
-void check_json_is_no_input(const ScoreFlags& flags, const Sequence& sequence) {
+void check_json_is_no_input(const ScoreFlags& flags, const std::string& predictions,
+                            const Sequence& sequence) {
   std::vector<std::filesystem::path> inputs = files_of(sequence);
   for (const std::filesystem::path& file : flags.reading.files()) inputs.push_back(file);
   if (!flags.cloud.empty()) inputs.emplace_back(flags.cloud);
   if (!flags.truth_map.empty()) inputs.emplace_back(flags.truth_map);
-  if (is_folder(flags.predictions)) {
-    for (const std::filesystem::path& file : entries_of(flags.predictions)) inputs.push_back(file);
+  if (is_folder(predictions)) {
+    for (const std::filesystem::path& file : entries_of(predictions)) inputs.push_back(file);
   }
   flags.json.check_is_none_of(inputs);
 }
@@ -310,7 +311,9 @@ ExitCode score(const ScoreFlags& flags) {
           ? open_sequence(flags.sequence, options, {threads, &progress, &interrupt_flag()})
           : open_truth_map(flags.truth_map, options);
   tell_opening(sequence, progress);
-  check_json_is_no_input(flags, sequence);
+  const std::string predictions =
+      flags.predictions.empty() ? "" : prediction_folder(flags.predictions, sequence.name).string();
+  check_json_is_no_input(flags, predictions, sequence);
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
@@ -318,7 +321,7 @@ ExitCode score(const ScoreFlags& flags) {
   const std::string fit_line = pose_fit_line(record.pose_fit);
   if (!fit_line.empty()) print_warning(fit_line);
   if (flags.cloud.empty()) {
-    score_predictions(scored, flags.predictions, progress, record);
+    score_predictions(scored, predictions, progress, record);
   } else {
     const double voxel = flags.voxel.empty() ? 0.0 : parse_positive("--voxel", flags.voxel);
     score_cloud(scored, flags.cloud, voxel, progress, record);
@@ -341,7 +344,9 @@ Command add_score_command(CommandParser& program) {
               "label, 0 or 1 (1 moves), or SemanticKITTI's");
   options.add(
       "--predictions", "DIR", flags->predictions,
-      "A folder of NNNNNN.label files, in which 251 to 259 mean removed and other labels kept");
+      "A folder of NNNNNN.label files, in which 251 to 259 mean removed and other labels kept, or "
+      "of "
+      ".npy masks (see the docs for learning ids); or the folder above sequences/NN/predictions");
   options.add("--cloud", "FILE", flags->cloud,
               "A cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
   options.add("--voxel", "METRES", flags->voxel,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "core/scan/label_rule.h"
 #include "core/scan/mask_store.h"
 #include "core/scan/scan_source.h"
 
@@ -45,13 +46,35 @@ bool can_remove_removals(const std::filesystem::path& folder);
 using LabelIds = std::bitset<65536>;
 
 /// Reads what `write_removals` or another program wrote: 251 to 259 = removed.
-/// @param found gets the semantic ids of all points of the scans; null: nobody asks
 /// @throws DataError naming the file that is missing or has another count than its scan
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
-                        const std::function<void()>& after_scan, LabelIds* found = nullptr);
+                        const std::function<void()>& after_scan);
 
-/// Whether one of `ids` means removed.
-bool has_removed_label(const LabelIds& ids);
+/// The semantic ids in the files of an answer, and whether there are arrays among these.
+struct PredictedIds {
+  LabelIds ids;
+  bool arrays = false;
+};
+
+/// The answer of another program.
+struct Predictions {
+  MaskStore masks;
+  PredictedIds found;
+  std::string note;  ///< How the ids were read, if none is from 251 to 259; else empty.
+};
+
+/// Reads the answer of another program: a file NAME.label or an array NAME.npy for each scan
+/// (bool, whole numbers, or shares, of which 0.5 and more mean removed). Without a label from 251
+/// to 259 the ids that move by `rule` mean removed, else 2 among learning ids (0, 1, 2), else 1
+/// among arrays of 0 and 1.
+/// @throws DataError as `read_removals`
+Predictions read_predictions(const std::filesystem::path& folder, const ScanSource& scans,
+                             const LabelRule& rule, const std::function<void()>& after_scan);
+
+/// The folder with the files of `sequence`: `folder`, or sequences/NN/predictions in it, where MOS
+/// benchmarks have them. @throws DataError if none of several is that of `sequence`
+std::filesystem::path prediction_folder(const std::filesystem::path& folder,
+                                        const std::string& sequence);
 
 /// "0, 1", the smallest of `ids`, and how many more there are.
 std::string label_ids_text(const LabelIds& ids);

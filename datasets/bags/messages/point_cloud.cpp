@@ -107,6 +107,10 @@ void check_fields(const PointsMessage& cloud, const MessageReader& reader) {
 void check_data(PointsMessage& cloud, std::uint64_t data_bytes, const MessageReader& reader) {
   const std::uint64_t row = cloud.width * cloud.point_step;
   if (cloud.height <= 1 || cloud.row_step < row) cloud.row_step = row;
+  // Some publishers put the bytes of all rows there.
+  const bool of_all =
+      cloud.height > 1 && cloud.row_step == data_bytes && row <= data_bytes / cloud.height;
+  if (of_all) cloud.row_step = row;
   if (cloud.size() == 0) return;
   if (cloud.point_step == 0) reader.fail("point_step is 0, but there are points.");
   // One row that does not fit is enough, and the product of all could be beyond 64 bits.

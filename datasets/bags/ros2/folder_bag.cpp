@@ -14,6 +14,8 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/bags/unpack.h"
+#include "datasets/clouds/cloud_file.h"
+#include "datasets/clouds/frames.h"
 
 namespace raymoval {
 namespace {
@@ -193,8 +195,40 @@ std::uint64_t place_of(std::size_t part, std::size_t index) {
 
 }  // namespace
 
+std::vector<fs::path> split_recording(const fs::path& folder) {
+  std::vector<fs::path> parts;
+  std::set<std::string> names;
+  if (!folders_in(folder).empty()) return {};
+  for (const fs::path& file : list_files(folder, {""})) {
+    const fs::path name = without_zstd_ending(file.filename());
+    const std::string ending = name.extension().string();
+    if (ending == ".bag" || !cloud_extension(file).empty()) return {};
+    if (ending != ".db3" && ending != ".mcap") continue;
+    std::string stem = name.stem().string();
+    const std::size_t number = stem.find_last_not_of("0123456789");
+    if (number != std::string::npos && stem[number] == '_') stem.resize(number);
+    names.insert(stem + ending);
+    parts.push_back(file);
+  }
+  return names.size() == 1 ? parts : std::vector<fs::path>();
+}
+
+namespace {
+
+Ros2Metadata metadata_of(const fs::path& folder) {
+  if (has_file(folder / "metadata.yaml")) return read_ros2_metadata(folder);
+  Ros2Metadata metadata;
+  metadata.path = folder;
+  for (const fs::path& part : split_recording(folder)) {
+    metadata.files.push_back({part.filename().string(), part, true, std::nullopt});
+  }
+  return metadata;
+}
+
+}  // namespace
+
 Ros2FolderBag::Ros2FolderBag(std::filesystem::path folder, const Open& open)
-    : folder_(std::move(folder)), metadata_(read_ros2_metadata(folder_)) {
+    : folder_(std::move(folder)), metadata_(metadata_of(folder_)) {
   for (const std::string& listed : metadata_.twice) {
     damage_.add(metadata_.path.string() + ": lists " + listed + " twice; it is read once.");
   }

@@ -35,8 +35,12 @@ struct Ros2Metadata {
 ///   not read; UnreadableError
 Ros2Metadata read_ros2_metadata(const std::filesystem::path& folder);
 
-/// A recording of ROS 2 in a folder with metadata.yaml: one file or several, which are one
-/// recording. Its index takes 32 bytes a message.
+/// The files of a folder without metadata.yaml that are parts of one recording: NAME_0.db3,
+/// NAME_1.db3 and so on (or .mcap), in this order. None if there are others, scans or folders.
+std::vector<std::filesystem::path> split_recording(const std::filesystem::path& folder);
+
+/// A recording of ROS 2 in a folder with metadata.yaml, or without it as `split_recording`: one
+/// file or several, which are one recording. Its index takes 32 bytes a message.
 class Ros2FolderBag : public Bag {
  public:
   /// Opens a file of the folder.

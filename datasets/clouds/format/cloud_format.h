@@ -23,6 +23,10 @@ struct Cloud {
   std::vector<float> intensity;
 };
 
+/// What to do about a damaged file.
+inline constexpr const char* kRereadRemedy =
+    " Copy it again, or leave it out with --skip-bad-scans.";
+
 /// What a file does not say of itself.
 struct RecordReading {
   /// Fields of a .bin file or the columns of an .npy array, such as "x y z intensity t:f8" (float32

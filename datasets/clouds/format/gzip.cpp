@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/clouds/format/cloud_format.h"
 
 namespace raymoval {
 namespace {
@@ -63,7 +64,7 @@ class Inflation {
     if (state == Z_MEM_ERROR) throw std::bad_alloc();
     if (state == Z_BUF_ERROR) {
       throw DataError(where_ + ": the packed data ends after " + grouped_text(packed_.size()) +
-                      " bytes, in the middle; the file looks truncated. Copy it again.");
+                      " bytes, in the middle; the file looks truncated." + kRereadRemedy);
     }
     throw DataError(where_ + ": the packed data is damaged near byte " + grouped_text(used_) +
                     (stream_.msg != nullptr ? " (" + std::string(stream_.msg) + ")" : "") +

@@ -53,6 +53,15 @@ std::uint64_t possible_points(const CloudHeader& header, std::string_view body) 
   return std::min(header.points, possible);
 }
 
+/// The words between commas and blanks.
+std::vector<std::string_view> split_commas(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (const std::string_view part : split(text, ',')) {
+    for (const std::string_view word : split_blanks(part)) words.push_back(word);
+  }
+  return words;
+}
+
 /// Calls `put` with each point's number and line. @throws DataError for a wrong count
 template <class Put>
 void for_each_point(const CloudHeader& header, std::string_view body,
@@ -71,6 +80,10 @@ void for_each_point(const CloudHeader& header, std::string_view body,
                       " the header announces.");
     }
     line.words = split_blanks(line.text);
+    if (line.text.find(',') != std::string_view::npos) {
+      auto words = split_commas(line.text);
+      if (words.size() == values) line.words = std::move(words);
+    }
     if (line.words.size() != values) {
       throw DataError(line.where() + ": " + std::to_string(line.words.size()) +
                       " values; the header announces " + std::to_string(values) + " a point.");
@@ -80,7 +93,7 @@ void for_each_point(const CloudHeader& header, std::string_view body,
   if (done == header.points) return;
   throw DataError(path.string() + ": the header announces " + grouped_text(header.points) +
                   " points, but the file ends after " + grouped_text(done) +
-                  "; it looks truncated. Copy it again, or leave it out with --frames.");
+                  "; it looks truncated." + kRereadRemedy);
 }
 
 /// The value of a text, less `origin`; nothing if it is no number.
@@ -183,8 +196,7 @@ StoredPoints binary_points(const CloudHeader& header, std::string_view body,
     throw DataError(path.string() + ": the header announces " + grouped_text(header.points) +
                     " points of " + std::to_string(row) + " bytes, but only " +
                     grouped_text(body.size()) + " bytes follow it; the file looks truncated " +
-                    "after point " + grouped_text(body.size() / row) +
-                    ". Copy it again, or leave it out with --frames.");
+                    "after point " + grouped_text(body.size() / row) + "." + kRereadRemedy);
   }
   StoredPoints stored{body, {}, header.points, row};
   for (const PointField& field : header.fields) {
@@ -207,20 +219,20 @@ std::string unpack_lzf_block(std::string_view body, std::uint64_t expected_bytes
     throw DataError(path.string() + ": " + grouped_text(body.size()) +
                     " bytes follow the header, but its compressed block needs " +
                     grouped_text(std::uint64_t{packed} + sizeof sizes) +
-                    "; the file looks truncated. Copy it again, or leave it out with --frames.");
+                    "; the file looks truncated." + kRereadRemedy);
   }
   if (unpacked != expected_bytes) {
     throw DataError(path.string() + ": the compressed block announces " + grouped_text(unpacked) +
                     " bytes, but the header's points take " + grouped_text(expected_bytes) +
-                    "; the file is damaged. Copy it again, or leave it out with --frames.");
+                    "; the file is damaged." + kRereadRemedy);
   }
   std::string data;
   const bool plausible = unpacked <= std::uint64_t{packed} * kMostGain;
   if (plausible) data.resize(unpacked);
   if (unpacked > 0 && (!plausible || ::lzf_decompress(body.data() + sizeof sizes, packed,
                                                       data.data(), unpacked) != unpacked)) {
-    throw DataError(path.string() + ": the compressed block is damaged (LZF decoding fails). " +
-                    "Copy the file again, or leave it out with --frames.");
+    throw DataError(path.string() + ": the compressed block is damaged (LZF decoding fails)." +
+                    kRereadRemedy);
   }
   return data;
 }

@@ -41,7 +41,7 @@ class LasHeadReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw DataError(where_ + ": " + what + ". Copy the file again, or leave it out.");
+    throw DataError(where_ + ": " + what + "." + kRereadRemedy);
   }
   [[noreturn]] void fail_laz() const {
     throw DataError(where_ +

@@ -81,10 +81,11 @@ void check_bytes(const CloudBytes& file, const NpyHead& head, std::uint64_t poin
   const std::uint64_t bytes = head.body.size();
   if (points <= kMostCloudPoints && points * row_bytes == bytes) return;
   const bool cut = points > bytes / row_bytes;
-  throw DataError(file.path.string() + ": the array is " + head.shape_text() + ", " +
-                  std::to_string(row_bytes) + " bytes a point, but " + grouped_text(bytes) +
-                  " bytes follow its head; the file looks " +
-                  (cut ? "truncated. Copy it again." : "like several, and only one is read."));
+  throw DataError(
+      file.path.string() + ": the array is " + head.shape_text() + ", " +
+      std::to_string(row_bytes) + " bytes a point, but " + grouped_text(bytes) +
+      " bytes follow its head; the file looks " +
+      (cut ? std::string("truncated.") + kRereadRemedy : "like several, and only one is read."));
 }
 
 /// @throws DataError naming what of the head cannot be, or that there are fewer or more bytes than
@@ -155,9 +156,8 @@ class ZipArchive {
     zip_source_free(source);
     const std::string reason = zip_error_strerror(&error);
     zip_error_fini(&error);
-    throw DataError(
-        where_ + ": the zip archive cannot be read (" + reason +
-        "); it looks truncated, or is no zip archive. Copy it again, or save it again.");
+    throw DataError(where_ + ": the zip archive cannot be read (" + reason +
+                    "); it looks truncated, or is no zip archive." + kRereadRemedy);
   }
   ~ZipArchive() { zip_discard(archive_); }
   ZipArchive(const ZipArchive&) = delete;

@@ -33,7 +33,7 @@ std::pair<std::string_view, std::string_view> head_and_body(const CloudBytes& fi
   if (length > file.text.size() - 8 - bytes) {
     throw DataError(where + ": its head has " + grouped_text(length) + " bytes, but only " +
                     grouped_text(file.text.size() - 8 - bytes) +
-                    " follow; the file looks truncated. Copy it again.");
+                    " follow; the file looks truncated." + kRereadRemedy);
   }
   return {file.text.substr(8 + bytes, length), file.text.substr(8 + bytes + length)};
 }

@@ -19,13 +19,13 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-bool in_label_files(const Samples& samples) {
-  return !samples.files().empty() && !samples.files().front().label_path.empty();
+bool in_label_file(const Samples& samples, std::size_t scan) {
+  return !samples.files().empty() && !samples.files()[scan].label_path.empty();
 }
 
 /// Words as stored, whether or not they fit the scan.
 Words stored_words(const Samples& samples, std::size_t scan) {
-  if (in_label_files(samples)) {
+  if (in_label_file(samples, scan)) {
     const auto bytes = read_bytes(samples.files()[scan].label_path);
     Words words(bytes.size() / sizeof(std::uint32_t));
     if (!words.empty()) std::memcpy(words.data(), bytes.data(), words.size() * sizeof words[0]);
@@ -38,7 +38,7 @@ Words stored_words(const Samples& samples, std::size_t scan) {
 
 /// Whether the label file of a scan ends with a part of a label.
 bool ends_in_part(const Samples& samples, std::size_t scan) {
-  if (!in_label_files(samples)) return false;
+  if (!in_label_file(samples, scan)) return false;
   return plain_file_size(samples.files()[scan].label_path) % sizeof(std::uint32_t) != 0;
 }
 
@@ -123,8 +123,9 @@ double mean_confusion(const Samples& samples, int shift) {
 }
 
 std::string label_place(const Samples& samples, std::size_t scan) {
-  return in_label_files(samples) ? "labels/" + samples.files()[scan].label_path.filename().string()
-                                 : "labels of " + samples.scan_name(scan);
+  return in_label_file(samples, scan)
+             ? "labels/" + samples.files()[scan].label_path.filename().string()
+             : "labels of " + samples.scan_name(scan);
 }
 
 bool has_words(const Samples& samples) {
@@ -236,7 +237,8 @@ std::vector<Check> label_checks() {
        look_for_shift, Consequence::kUnused},
       {"label-count", "a scan has more or fewer labels than points",
        "one label for each stored point",
-       "Copy scan and labels again from one source, or leave the frame out with --frames.",
+       "Copy scan and labels again from one source, or move the label file away: scans without one "
+       "are not scored.",
        look_for_counts, Consequence::kUnused},
       {"labels-in-intensity-by-value", "labels stand in the intensity of the points",
        "the strength of the return", "Write the labels to labels/NAME.label.", look_for_values,

@@ -89,10 +89,20 @@ std::vector<Finding> look_for_time_offset(Samples& samples) {
            .remedy = "Say " + time_offset_option(samples, *offset) + "."}};
 }
 
+std::vector<Finding> look_for_missing_poses(Samples& samples) {
+  const std::optional<PoseGap>& gap = samples.sequence().pose_gap;
+  if (!gap) return {};
+  return {{.where = gap->where, .what = gap->what, .remedy = gap->remedy}};
+}
+
 }  // namespace
 
 std::vector<Check> time_checks() {
   return {
+      {kMissingPoses, "a quarter of the scans or more have no pose, often because clocks differ",
+       "a pose for each scan",
+       "Take the trajectory of the whole drive, or say --time-offset if its clock is another one.",
+       look_for_missing_poses},
       {"time-offset", "scans and poses are of clocks that differ", "scans and poses on one clock",
        "Say --time-offset with the time of poses less that of "
        "scans.",

@@ -22,6 +22,10 @@ struct Check {
   Consequence consequence = Consequence::kWarned;
 };
 
+/// The check that tells of scans without a pose, also where too many have none to open the
+/// sequence.
+inline constexpr const char* kMissingPoses = "scans-without-poses";
+
 /// The parts of the table of checks, each in a file of its own. Those of poses share one
 /// `pose_verdict`.
 std::vector<Check> pose_checks();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/error.h"
 #include "core/sampling.h"
@@ -52,9 +53,17 @@ void Samples::read_scans() {
   }
   for (const std::size_t scan : wanted) {
     if (cancel_ != nullptr && cancel_->load()) throw Cancelled();
-    const auto& read = scans_.emplace(scan, sequence_.scans->load(scan)).first->second;
-    if (read.points.empty()) throw DataError(scan_name(scan) + ": holds no point to look at.");
+    Scan read = sequence_.scans->load(scan);
+    if (!read.points.empty()) scans_.emplace(scan, std::move(read));
   }
+  if (scans_.empty()) {
+    throw DataError(scan_name(*wanted.begin()) +
+                    ": holds no point, nor do the other scans that were looked at; expected points "
+                    "in most scans. Copy them again.");
+  }
+  std::erase_if(pairs_, [&](const ScanPair& pair) {
+    return scans_.count(pair.from) == 0 || scans_.count(pair.to) == 0;
+  });
 }
 
 void Samples::measure_range() {

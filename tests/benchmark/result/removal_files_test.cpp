@@ -70,18 +70,64 @@ TEST_CASE("The labels of predictions are told, so that masks of 0 and 1 can be n
     write_atomically(folder.path() / "000007.label",
                      {reinterpret_cast<const char*>(words.data()), words.size() * 4});
     write_atomically(folder.path() / "000008.label", std::string(4, '\0'));
-    LabelIds found;
-    (void)read_removals(
-        folder.path(), scans, [] {}, &found);
-    return found;
+    return read_predictions(folder.path(), scans, LabelRule{}, [] {});
   };
-  CHECK(label_ids_text(found_with(1)) == "0, 1");
-  CHECK_FALSE(has_removed_label(found_with(1)));
-  for (const std::uint32_t removed : {251U, 259U}) CHECK(has_removed_label(found_with(removed)));
-  for (const std::uint32_t other : {250U, 260U}) CHECK_FALSE(has_removed_label(found_with(other)));
+  CHECK(label_ids_text(found_with(1).found.ids) == "0, 1");
+  for (const std::uint32_t removed : {251U, 259U}) {
+    CHECK(found_with(removed).masks.removed_count() == 1);
+  }
+  for (const std::uint32_t other : {1U, 250U, 260U}) {
+    CHECK(found_with(other).masks.removed_count() == 0);
+  }
   LabelIds many;
   for (std::size_t id = 10; id < 20; ++id) many.set(id);
   CHECK(label_ids_text(many) == "10, 11, 12, 13, 14, 15, 16, 17 and 2 more");
+}
+
+TEST_CASE("Learning ids, ids of a rule and arrays are read as other programs write them") {
+  const test::TwoScans scans;  // Points at positions 0, 2 and 4 of five, and one of one.
+  const test::TemporaryFolder folder;
+  const auto labels = [&](const std::vector<std::uint32_t>& words) {
+    folder.write("000007.label", test::words(words));
+    folder.write("000008.label", test::words({words[0]}));
+    return read_predictions(folder.path(), scans, LabelRule{"mine", {7}, {}}, [] {});
+  };
+  const Predictions learning = labels({1, 0, 2, 0, 0});
+  CHECK(learning.masks.get(0) == Mask{0, 1, 0});
+  CHECK_THAT(learning.note, Contains("learning ids"));
+  const Predictions ruled = labels({1, 0, 7, 0, 2});
+  CHECK(ruled.masks.get(0) == Mask{0, 1, 0});
+  CHECK_THAT(ruled.note, Contains("label rule mine: 7"));
+  CHECK(labels({9, 0, 251, 0, 7}).masks.get(0) == Mask{0, 1, 0});
+  CHECK(labels({9, 0, 251, 0, 7}).note.empty());
+  // Who is 1 in label files of 0 and 1 is not known.
+  CHECK(labels({0, 0, 1, 0, 1}).masks.removed_count() == 0);
+
+  const auto array = [&](const std::string& type, const std::string& five, const std::string& one) {
+    for (const auto& [name, count, body] :
+         {std::tuple{"000007.npy", "5", five}, std::tuple{"000008.npy", "1", one}}) {
+      std::string head =
+          "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + count + ",), }\n";
+      folder.write(name, "\x93NUMPY\x01" + std::string(1, '\0') + static_cast<char>(head.size()) +
+                             std::string(1, '\0') + head + body);
+    }
+    return read_predictions(folder.path(), scans, LabelRule{}, [] {}).masks.get(0);
+  };
+  for (const char* type : {"|b1", "|u1"}) {
+    CHECK(array(type, std::string("\0\1\1\0\0", 5), std::string(1, '\0')) == Mask{0, 1, 0});
+  }
+  CHECK(array("<f4", test::floats({0.4F, 1, 0.5F, 1, 0.499F}), test::floats({0})) == Mask{0, 1, 0});
+  CHECK_THROWS_WITH(array("|u1", "1234", "1"), Contains("000007.npy") && Contains("5 points"));
+}
+
+TEST_CASE("Predictions of MOS benchmarks are found in sequences/NN/predictions") {
+  const test::TemporaryFolder folder;
+  CHECK(prediction_folder(folder.path(), "08") == folder.path());
+  folder.write("sequences/05/predictions/000000.label", "");
+  CHECK(prediction_folder(folder.path(), "08") == folder / "sequences/05/predictions");
+  folder.write("sequences/08/000000.label", "");
+  CHECK(prediction_folder(folder.path(), "08") == folder / "sequences/08");
+  CHECK_THROWS_WITH(prediction_folder(folder.path(), "09"), Contains("05/, 08/"));
 }
 
 TEST_CASE("A missing or cut-off label file is named") {

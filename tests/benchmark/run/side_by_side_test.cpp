@@ -132,8 +132,9 @@ TEST_CASE("A sequence that cannot be read is failed cells, and the other one is 
   const auto out = folder.path() / "run";
   Suite suite = small_suite("0:0");
   const std::string row = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-  // One point at the sensor: no return, which shows when the scan is read.
-  folder.write("broken/velodyne/000000.bin", std::string(16, '\0'));
+  // An infinite point, which shows when the scan is read.
+  folder.write("broken/velodyne/000000.bin",
+               std::string("\0\0\x80\x7F", 4) + std::string(12, '\0'));
   folder.write("broken/labels/000000.label", std::string(4, '\0'));
   folder.write("broken/poses.txt", row);
   folder.write("broken/sequence.json",

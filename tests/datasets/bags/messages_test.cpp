@@ -147,6 +147,16 @@ TEST_CASE("A row_step that drivers leave wrong is read as what stands there", "[
   CHECK(points_of(cloud_message(MessageBytes(kRos1), head, "")).size() == 0);
 }
 
+TEST_CASE("A row_step of all bytes is read as that of a row", "[bags]") {
+  CloudHead head;
+  head.width = head.height = 2;
+  head.row_step = 48;
+  const std::string data = floats({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  const PointRecords points = points_of(cloud_message(MessageBytes(kRos1), head, data));
+  REQUIRE(points.size() == 4);
+  CHECK(points.value(3, points.layout.fields[2]) == 12);
+}
+
 TEST_CASE("A cloud that contradicts itself is refused with the reason", "[bags]") {
   const auto refused = [](const std::function<void(CloudHead&)>& change) {
     CloudHead head = padded_head();

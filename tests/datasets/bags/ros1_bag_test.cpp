@@ -122,6 +122,9 @@ TEST_CASE("A bag that was never closed is read whole", "[bags]") {
     const Ros1Bag bag(folder.write("open.bag", bytes));
     CHECK(all_messages(bag) == whole);
     check_says(bag.damage().at(0), {"never closed", "rosbag reindex"});
+    // So is the file that rosbag leaves where it was ended.
+    CHECK(open_bag(folder.write("a.bag.active", bytes))->damage().size() == 1);
+    CHECK(is_bag(folder / "a.bag.active"));
   }
 }
 

@@ -158,16 +158,30 @@ TEST_CASE("Packed files and packed messages are unpacked", "[bags][ros2]") {
   CHECK_THROWS_AS(open_bag(folder / "bomb.mcap.zst"), DataError);
 }
 
+TEST_CASE("Parts of a recording without metadata.yaml are one recording", "[bags][ros2]") {
+  const TemporaryFolder folder;
+  folder.write("drive/drive_0.db3", db3_bytes());
+  CHECK(is_bag(folder / "drive"));
+  test::check_content(*open_bag(folder / "drive"));
+  folder.write("drive/drive_1.db3", db3_bytes());
+  const auto bag = open_bag(folder / "drive");
+  CHECK(test::texts_of(*bag, "/points").size() == 6);
+  CHECK(bag->damage().empty());
+  // Scans beside it are not the recording's.
+  folder.write("drive/000000.pcd", "");
+  CHECK_FALSE(is_bag(folder / "drive"));
+}
+
 TEST_CASE("Recordings that are known and not read are refused with a remedy", "[bags]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(open_bag(folder.write("old.bag", "#ROSBAG V1.2\nabc")),
                     Catch::Contains("rosbag fix"));
-  CHECK_THROWS_WITH(open_bag(folder.write("a.bag.active", "#ROSBAG V2.0\n")),
-                    Catch::Contains("rosbag reindex"));
   CHECK_THROWS_WITH(open_bag(folder.write("a.mcap", "nothing of the kind")),
                     Catch::Contains("does not begin as a recording"));
   folder.write("drive/a.db3", db3_bytes());
+  folder.write("drive/b.db3", db3_bytes());
   CHECK_THROWS_WITH(open_bag(folder / "drive"), Catch::Contains("ros2 bag reindex"));
+  std::filesystem::remove(folder / "drive/b.db3");
   std::string other = metadata("5", "    - a.db3\n");
   other.replace(other.find("sqlite3"), 7, "my_store");
   folder.write("drive/metadata.yaml", other);

@@ -81,7 +81,10 @@ TEST_CASE("a field has at most 65,536 values, and a point at most a megabyte", "
   CHECK(pcd(with_counts("65533")).row_bytes() == 1 << 20);
   check_says(pcd_says(with_counts("65534")), {"0 points of 1,048,580 bytes"});
   check_says(pcd_says(with_counts("65537")), {"'65537' is not a number that can stand"});
-  check_says(pcd_says(with_counts("0")), {"'0' is not a number that can stand"});
+  check_says(pcd_says(with_counts("-1")), {"'-1' is not a number that can stand"});
+  // A field of no values takes no bytes.
+  CHECK(pcd(with_counts("0")).fields.size() == 5);
+  CHECK(pcd(with_counts("0")).row_bytes() == 12 + 12 * 65536);
 }
 
 TEST_CASE("a header line has at most 65,536 bytes, however long the header is", "[header]") {

@@ -44,11 +44,15 @@ TEST_CASE("a rotation may deviate by a thousandth", "[poses]") {
   check_says(message_of<DataError>([&] { stretched(0.0006); }), {"no rotation", "0.0012"});
 }
 
-TEST_CASE("times of poses are finite and increase", "[poses]") {
-  const std::string rest = " 0 0 0 0 0 0 1\n";
-  check_says(tum_says("5" + rest + "5" + rest), {"line 2: time 5.000000000 s is that of the row"});
-  check_says(tum_says("1" + rest + "5" + rest + "3" + rest),
-             {"line 3: time 3.000000000 s is before"});
+TEST_CASE("times of poses are finite, and poses of one time are near each other", "[poses]") {
+  const std::string rest = " 0 0 0 0 0 0 1\n", near = " 0.2 0 0 0 0 0 1\n",
+                    far = " 0.21 0 0 0 0 0 1\n";
+  check_says(tum_says("5" + rest + "5" + far),
+             {"line 2: time 5.000000000 s is that of line 1", "0.21 m apart", "too few digits"});
+  // The second row of time 5 is sorted before it is compared.
+  check_says(tum_says("5" + rest + "7" + rest + "5" + far), {"line 3: time 5", "line 1"});
+  const TemporaryFolder folder;
+  CHECK_NOTHROW(read_pose_file(folder.write("near.txt", "5" + rest + "5" + near)));
   check_says(tum_says("nan" + rest), {"line 1", "not finite"});
   check_says(tum_says("5" + rest + "inf" + rest), {"line 2", "not finite"});
   check_says(tum_says("0 0 0 0 nan 0 0 1\n"), {"line 1: the pose holds a number that is not"});

@@ -130,7 +130,7 @@ TEST_CASE("a point of the world is at its origin if it is nearer than a millimet
     if (kept) {
       CHECK((sequence.scans->load(0).points.at(0) - Eigen::Vector3f(-100, 0, -2)).norm() < 0.01F);
     } else {
-      CHECK_THROWS_WITH(sequence.scans->load(0), Catch::Contains("none of its 1 points"));
+      CHECK(sequence.scans->load(0).points.empty());
     }
   }
 }
@@ -140,7 +140,7 @@ TEST_CASE("a scan of 99 missing returns and one infinite point has no return", "
   std::vector<float> values(400, std::nanf(""));
   for (int i = 0; i < 4; ++i) values[i] = std::numeric_limits<float>::infinity();
   const Sequence sequence = one_scan(folder, values);
-  CHECK_THROWS_WITH(sequence.scans->load(0), Catch::Contains("none of its 100 points is a return"));
+  CHECK(sequence.scans->load(0).points.empty());
 }
 
 TEST_CASE("points in the sensor's frame stay as they are wherever the sensor stands", "[files]") {
@@ -310,7 +310,7 @@ TEST_CASE("a missing return stored as zero is none in a world far from its origi
     const TemporaryFolder folder;
     folder.write("pcd/0.pcd", world_pcd("x y z", std::string(place) + " 1 0 0 0", "0 0 0"));
     const Sequence sequence = open_sequence(folder.text(), {});
-    CHECK_THROWS_WITH(sequence.scans->load(0), Catch::Contains("none of its 1 points"));
+    CHECK(sequence.scans->load(0).points.empty());
   }
 }
 

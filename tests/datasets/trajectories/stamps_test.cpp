@@ -58,24 +58,72 @@ TEST_CASE("the unit of times is told by their size, else by their spacing", "[tr
 
 TEST_CASE("names are times only if all of them look like times", "[trajectories]") {
   using Stamps = std::vector<Nanoseconds>;
-  CHECK(stamps_in_names({"1317384506.400000123", "1317384506.500000000"}) ==
+  const auto read = [](const std::vector<std::string>& names) {
+    const auto found = stamps_in_names(names);
+    return found ? found->stamps : Stamps{};
+  };
+  CHECK(read({"1317384506.400000123", "1317384506.500000000"}) ==
         Stamps{1317384506400000123, 1317384506500000000});
-  CHECK(stamps_in_names({"1317384506.4", "1317384506.5"}) ==
-        Stamps{1317384506400000000, 1317384506500000000});
-  CHECK(stamps_in_names({"1317384506400000123"}) == Stamps{1317384506400000123});
-  CHECK(stamps_in_names({"1317384506_5000000", "1317384506_400000123"}) ==
+  CHECK(read({"1317384506.4", "1317384506.5"}) == Stamps{1317384506400000000, 1317384506500000000});
+  for (const char* digits : {"1317384506400", "1317384506400000", "1317384506400000000",
+                             "cloud_1317384506_400000000_left", "lidar-1317384506.4"}) {
+    INFO(digits);
+    CHECK(read({digits}) == Stamps{1317384506400000000});
+  }
+  CHECK(read({"1317384506_5000000", "1317384506_400000123"}) ==
         Stamps{1317384506005000000, 1317384506400000123});
-  // Nanoseconds without leading zeros: as decimals these would run backwards.
-  CHECK(stamps_in_names({"1317384506.5000000", "1317384506.400000123"}) ==
+  // Nanoseconds without leading zeros: decimals of varying length would not end in zeros.
+  CHECK(read({"1317384506.5000000", "1317384506.400000123"}) ==
         Stamps{1317384506005000000, 1317384506400000123});
-  CHECK(stamps_in_names({"0.000000000", "0.100000000"}) == Stamps{0, 100000000});
+  CHECK(read({"0.000000000", "0.100000000"}) == Stamps{0, 100000000});
   for (const char* name : {"000123", "frame1.10", "1.10", "scan_7", "12345678901234567890", "",
-                           "1317384506.", ".5", "1317384506.4x", "2011_09_26"}) {
+                           ".5", "2011_09_26", "20111001_120000"}) {
     INFO(name);
     CHECK_FALSE(stamps_in_names({name}));
   }
   CHECK_FALSE(stamps_in_names({"1317384506.400000000", "000001"}));
   CHECK_FALSE(stamps_in_names({}));
+  // The ninth and the tenth of a second are not one time.
+  CHECK_FALSE(stamps_in_names({"1.1", "1.2", "1.9", "1.10"}));
+  // The serial number of a sensor and a count of microseconds: no sensor is that fast.
+  CHECK_FALSE(stamps_in_names({"livox_1100594001_000001", "livox_1100594001_000002"}));
+}
+
+TEST_CASE("digits behind the seconds of a name are read as they must have been written",
+          "[trajectories]") {
+  using Stamps = std::vector<Nanoseconds>;
+  const auto read = [](const std::vector<std::string>& names) {
+    Stamps stamps = stamps_in_names(names).value().stamps;
+    for (Nanoseconds& stamp : stamps) stamp -= 1403636579'000000000;
+    return stamps;
+  };
+  // Python's str drops zeros at the end.
+  CHECK(read({"1403636579.8", "1403636579.87", "1403636579.9637"}) ==
+        Stamps{800000000, 870000000, 963700000});
+  CHECK(read({"1403636579_870000", "1403636579_963700"}) == Stamps{870000000, 963700000});
+  CHECK(read({"1403636579_70000", "1403636579_170000"}) == Stamps{70000000, 170000000});
+  CHECK(stamps_in_names({"0.0", "0.1", "0.2037", "5.90125"}).value().stamps ==
+        Stamps{0, 100000000, 203700000, 5901250000});
+  // As decimals 0.99998 and 0.199998 s; as microseconds without leading zeros 0.1 s apart.
+  const auto both = stamps_in_names(
+      {"1403636579_99998", "1403636579_199998", "1403636579_299998", "1403636579_399998"});
+  CHECK(both.value().stamps[1] - both.value().stamps[0] == 100000000);
+  CHECK_THAT(both.value().note, Catch::Contains("microseconds"));
+  // Neither is more even than the other, but the poses end at 0.2 s.
+  const Nanoseconds second = 1403636579'000000000;
+  const std::vector<std::string> two = {"1403636579_99999", "1403636579_199999"};
+  CHECK(stamps_in_names(two, std::pair(second, second + 200000000)).value().stamps[0] ==
+        second + 99999000);
+}
+
+TEST_CASE("dates may have a T and a time zone", "[trajectories]") {
+  const auto utc = parse_date("2011-09-26 13:02:25.5");
+  REQUIRE(utc);
+  CHECK(parse_date("2011-09-26T13:02:25.5Z") == utc);
+  CHECK(parse_date("2011-09-26T15:02:25.5+02:00") == utc);
+  CHECK(parse_date("2011-09-26T08:32:25.5-0430") == utc);
+  CHECK_FALSE(parse_date("2011-09-26T13:02:25.5+2"));
+  CHECK_FALSE(parse_date("2011-09-26"));
 }
 
 TEST_CASE("files of times hold numbers or the dates of KITTI's raw data", "[trajectories]") {
