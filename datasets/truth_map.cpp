@@ -51,7 +51,10 @@ Sequence open_truth_map(const std::filesystem::path& file, const SequenceOptions
   SequenceSettings settings;
   settings.name = file.stem().string();
   settings.label_rule = rule_of(cloud);
-  settings = apply_options({.label_rule = options.label_rule, .name = options.name}, settings);
+  SequenceOptions chosen;
+  chosen.label_rule = options.label_rule;
+  chosen.name = options.name;
+  settings = apply_options(chosen, settings);
   Layout layout;
   layout.name = kMapLayout;
   layout.class_names = settings.label_rule.class_names;
