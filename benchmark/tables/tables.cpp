@@ -139,21 +139,27 @@ const std::vector<std::pair<std::string, std::function<MakeTables>>>& kinds_of_t
   return kinds;
 }
 
-/// "05 (frames 2350 to 2670, stride 2, 161 scans, range 0 to 60 m)" for each sequence.
+/// "0 to 60 m", or "any range".
+std::string range_words(const RangeLimits& range) {
+  if (range.max < RangeLimits{}.max) {
+    return fmt::format("{} to {} m", number_text(range.min), number_text(range.max));
+  }
+  return range.min > 0.0 ? number_text(range.min) + " m and more" : "any range";
+}
+
+/// "05 (frames 2350 to 2670, stride 2, 161 scans, any range)" for each sequence.
 std::string data_words(const RunResults& results) {
   std::vector<std::string> sequences;
   for (const std::string& sequence : results.sequences) {
     const DataRecord* data = results.data_of(sequence);
     if (data == nullptr) continue;
-    const std::vector<std::string_view> frames = split(data->frames, ':');
-    const bool numbered = frames.size() == 3;
-    const bool limited = data->range_m.max < RangeLimits{}.max;
-    sequences.push_back(fmt::format(
-        "{} ({}{}, range {} m to {})", sequence,
-        numbered ? fmt::format("frames {} to {}, stride {}, ", frames[0], frames[1], frames[2])
-                 : "",
-        counted_text(data->scans, "scan"), number_text(data->range_m.min),
-        limited ? number_text(data->range_m.max) + " m" : "any"));
+    const std::vector<std::string_view> parts = split(data->frames, ':');
+    std::string frames;
+    if (parts.size() == 3) {
+      frames = fmt::format("frames {} to {}, stride {}, ", parts[0], parts[1], parts[2]);
+    }
+    sequences.push_back(fmt::format("{} ({}{}, {})", sequence, frames,
+                                    counted_text(data->scans, "scan"), range_words(data->range_m)));
   }
   return sequences.empty() ? "" : "On " + join(sequences) + ".";
 }

@@ -79,7 +79,7 @@ holds "the record has it" grep -q '"left_out": "-9:9,-3:3,:-1"' run/cells/street
 expect 0 "All controls" run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 \
   --method comb --set comb.milliseconds=0 --keep-removals --quiet --out run
 expect 0 "precision" score --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 --quiet \
-  --predictions run/cells/street/comb-default_/removals
+  --predictions run/cells/street/comb-default/removals
 cat >ego.json <<'JSON'
 { "sequences": [{"path": "street", "frames": "0:2", "drop_ego": "-9:9,-3:3,:-1"}],
   "methods": [{"method": "comb", "set": {"milliseconds": 0}}] }
