@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/file_source.h"
+#include "datasets/layout.h"
 #include "datasets/settings.h"
 
 namespace raymoval {
