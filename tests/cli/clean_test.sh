@@ -121,7 +121,7 @@ holds "tiles have every point" test "$sum" -eq "$(points all/static.pcd)"
 holds "the manifest lists each" test "$(grep -c '"file"' tiles/manifest.json)" -eq "$(ls tiles/*.pcd | wc -l)"
 
 # Tiles of a mistaken unit are refused before the work.
-expect 2 "more than 100,000 tiles of 0.001 m, which is the limit of a map. Choose larger tiles" \
+expect 2 "more than 10,000 tiles of 0.001 m, which is the limit of a map. Choose larger tiles" \
   clean drive "${online[@]}" -o tiny --tiles 0.001
 holds "no folder of tiles is left" test ! -e tiny
 

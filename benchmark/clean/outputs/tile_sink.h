@@ -40,8 +40,8 @@ void check_tile_count(const Sequence& sequence, double size_m,
 /// file is open at a time, however many tiles there are.
 class TileSink : public RowSink {
  public:
-  /// More tiles than this are refused: they would be a mistake of units.
-  static constexpr std::size_t kMostTiles = 100'000;
+  /// More tiles than this are refused: they would be a mistake of units, and take minutes to write.
+  static constexpr std::size_t kMostTiles = 10'000;
 
   /// @throws DataError if the folder cannot be made; UsageError for an extension that is unknown
   TileSink(const std::filesystem::path& folder, const RecordLayout& layout, Tiling tiling);
