@@ -160,13 +160,9 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
     const fs::path& scan = chosen.files[i].path;
     scans.push_back(scan);
     entries.push_back({scan, "", cloud_stem(scan), poses.times_s[i], *poses.poses[i]});
-    sequence.stamps.push_back(poses.stamps[i]);
   }
-  sequence.motion = poses.motion;
   sequence.notes = std::move(notes);
-  sequence.notes.insert(sequence.notes.end(), poses.notes.begin(), poses.notes.end());
-  sequence.losses = poses.losses;
-  sequence.pose_gap = poses.gap;
+  add_poses(poses, sequence);
   sequence.input_files.insert(sequence.input_files.end(), input_files.begin(), input_files.end());
   sequence.poses_file = file ? file->path.filename().string() : kStandingSensor;
   add_label_files(folder / "labels", entries, sequence);

@@ -12,6 +12,16 @@
 
 namespace raymoval {
 
+void add_poses(const ScanPoses& poses, Sequence& sequence) {
+  for (std::size_t i = 0; i < poses.poses.size(); ++i) {
+    if (poses.poses[i]) sequence.stamps.push_back(poses.stamps[i]);
+  }
+  sequence.motion = poses.motion;
+  sequence.pose_gap = poses.gap;
+  sequence.notes.insert(sequence.notes.end(), poses.notes.begin(), poses.notes.end());
+  sequence.losses.insert(sequence.losses.end(), poses.losses.begin(), poses.losses.end());
+}
+
 void drop_bad_files(const std::vector<NumberedFile>& files, const RecordReading& reading,
                     const OpenContext& context, std::vector<std::optional<Pose>>& poses,
                     std::vector<std::string>& losses) {

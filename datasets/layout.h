@@ -10,6 +10,7 @@
 
 #include "datasets/clouds/file_source.h"
 #include "datasets/sequence.h"
+#include "datasets/trajectories/scan_poses.h"
 
 namespace raymoval {
 
@@ -69,6 +70,9 @@ struct Layout {
 /// @param range as used, both ends set
 Sequence make_sequence(const SequenceSettings& settings, const Layout& layout,
                        const FrameRange& range);
+
+/// Gives `sequence` what is known of the poses of its scans, and of the times of those with a pose.
+void add_poses(const ScanPoses& poses, Sequence& sequence);
 
 /// Takes the poses of scans whose files cannot be read away (see `drop_bad_scans`).
 void drop_bad_files(const std::vector<NumberedFile>& files, const RecordReading& reading,

@@ -285,18 +285,14 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
     if (!found.poses.poses[i]) continue;
     scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
                      *found.poses.poses[i], heads.layouts[i]});
-    sequence.stamps.push_back(found.poses.stamps[i]);
   }
   sequence.poses_file = found.name;
-  sequence.motion = found.poses.motion;
   sequence.damage = bag->damage();
   sequence.notes.push_back(path.filename().string() + ": the scans are those of " +
                            topic_text(bag->topics()[topic]) + ", the poses those of " + found.name +
                            ".");
-  take(sequence.notes, std::move(found.poses.notes));
   sequence.losses = heads.losses;
-  take(sequence.losses, std::move(found.poses.losses));
-  sequence.pose_gap = found.poses.gap;
+  add_poses(found.poses, sequence);
   find_labels(folder, settings, sequence);
   const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
                                                       found.point_frame, settings.sensor);

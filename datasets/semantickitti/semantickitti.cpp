@@ -280,13 +280,7 @@ Sequence open_semantickitti(const std::filesystem::path& folder, const SequenceO
   }
 
   std::vector<FrameEntry> entries = frame_entries(chosen.files, poses, {settings.point_layout});
-  for (std::size_t i = 0; i < poses.poses.size(); ++i) {
-    if (poses.poses[i]) sequence.stamps.push_back(poses.stamps[i]);
-  }
-  sequence.motion = poses.motion;
-  sequence.notes = poses.notes;
-  sequence.losses = poses.losses;
-  sequence.pose_gap = poses.gap;
+  add_poses(poses, sequence);
   add_label_files(folder / "labels", entries, sequence);
   if (settings.moving_now && sequence.labels) {
     const auto movers = folder / kMoversFile;

@@ -175,6 +175,11 @@ PoseFile read_named_columns(const PoseText& text) {
   }
   std::vector<std::string> notes;
   check_angles(text, *columns, notes);
+  if (columns->rotation == Rotation::kBoreas) {
+    notes.push_back(text.path().string() +
+                    ": roll, pitch and heading are read as pyboreas does, Rx(-roll) Ry(-pitch) "
+                    "Rz(-heading). If they are those of Rz Ry Rx, name the last column yaw.");
+  }
   PoseFile file = read_columns(text, *columns);
   file.notes.insert(file.notes.begin(), notes.begin(), notes.end());
   return file;

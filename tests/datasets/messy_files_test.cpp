@@ -146,6 +146,7 @@ TEST_CASE("tables of Boreas and Newer College are read", "[trajectories]") {
   CHECK(boreas.rows[0].matrix.col(3) == Eigen::Vector3d(10, 20, 30));
   // pyboreas: the rotation of a heading h is that by -h about z.
   CHECK(boreas.rows[0].matrix(0, 1) == Approx(1.0));
+  check_says(boreas.notes.at(0), {"pyboreas", "yaw"});
   const PoseFile college = read("#sec,nsec,x,y,z,qx,qy,qz,qw\n1583836591,82590976,1,2,3,0,0,0,1\n",
                                 "registered_poses.csv");
   CHECK(college.rows.at(0).stamp == 1583836591082590976);

@@ -17,8 +17,10 @@ void check_poses(const PoseFile& file) {
   require(!file.rows.empty(), "a pose file without poses is let through");
   for (std::size_t i = 0; i < file.rows.size(); ++i) {
     require(file.rows[i].stamp.has_value() == file.stamped(), "some poses have times, some none");
-    require(i == 0 || !file.stamped() || *file.rows[i].stamp > *file.rows[i - 1].stamp,
-            "times of poses do not increase");
+    require(file.rows[i].frame.has_value() == file.rows[0].frame.has_value(),
+            "some poses have frames, some none");
+    require(i == 0 || !file.stamped() || *file.rows[i].stamp >= *file.rows[i - 1].stamp,
+            "times of poses run backwards");
   }
   if (file.stamped()) may_refuse([&] { (void)trajectory_of(file); });
 }
