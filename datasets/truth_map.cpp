@@ -15,15 +15,16 @@
 namespace raymoval {
 namespace {
 
-/// Above all points, so that none is taken for a missing return at the sensor.
-Pose viewpoint_above(const Cloud& cloud) {
+/// Far beside all points, so that none is taken for a missing return or for the ego vehicle, which
+/// the protocol of ERASOR leaves out.
+Pose viewpoint_beside(const Cloud& cloud) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& point : cloud.points) {
     if (point.allFinite()) box.extend(point);
   }
   if (box.isEmpty()) return Pose::Identity();
   Eigen::Vector3d place = box.center().cast<double>();
-  place.z() = std::ceil(static_cast<double>(box.max().z())) + 1.0;
+  place.x() = std::floor(static_cast<double>(box.min().x())) - 100.0;
   return Pose(Eigen::Translation3d(place.array().round().matrix()));
 }
 
@@ -60,7 +61,7 @@ Sequence open_truth_map(const std::filesystem::path& file, const SequenceOptions
   layout.name = kMapLayout;
   layout.class_names = settings.label_rule.class_names;
   Sequence sequence = make_sequence(settings, layout, {});
-  const std::vector<FrameEntry> entries = {{file, "", settings.name, 0.0, viewpoint_above(cloud)}};
+  const std::vector<FrameEntry> entries = {{file, "", settings.name, 0.0, viewpoint_beside(cloud)}};
   sequence.labels = std::make_shared<IntensityLabelSource>(entries);
   FileScanSource::Traits traits;
   traits.point_frame = PointFrame::kWorld;

@@ -71,7 +71,7 @@ InspectionReport inspect(const Sequence& sequence, int threads, const std::atomi
     report.notes.push_back(bag_name(scans->bag()) + ": " + topics_sentence(scans->bag()));
   }
   report.sensor = inspection::sensor_text(samples);
-  if (samples.pose_fit) report.pose_fit = inspection::pose_fit_text(samples);
+  if (inspection::can_measure_fit(samples)) report.pose_fit = inspection::pose_fit_text(samples);
   report.measures = std::move(samples.measures);
   return report;
 }

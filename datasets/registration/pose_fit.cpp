@@ -29,7 +29,9 @@ constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
 constexpr double kLeastReturn = 1.5;  // metres
 constexpr std::size_t kLeastMatched = 150;
 constexpr double kLeastOverlap = 0.25;
-constexpr std::size_t kBatch = 32;  // Pairs whose scans are in memory together.
+constexpr double kClearGain = 1.2;
+constexpr std::size_t kFewestPairs = 4;  // Fewer tell nothing: one in some hundred is misjudged.
+constexpr std::size_t kBatch = 32;       // Pairs whose scans are in memory together.
 
 using Pairs = std::vector<PairDistance>;
 
@@ -173,8 +175,11 @@ class SurfaceClouds {
 
 namespace {
 
-bool overlaps_enough(const Registration& found) {
-  return found.matched >= kLeastMatched && found.overlap >= kLeastOverlap;
+/// Whether a registration tells something: scans overlap enough, and where it moves surfaces by
+/// much, they fit clearly better.
+bool is_clear(const Registration& found) {
+  if (found.matched < kLeastMatched || found.overlap < kLeastOverlap) return false;
+  return found.shift <= kMostDistance || found.overlap >= kClearGain * found.overlap_of_guess;
 }
 
 }  // namespace
@@ -194,7 +199,7 @@ double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to) {
   const SurfaceCloud first(scans.load(from)), second(scans.load(to));
   const Registration found =
       register_scans(first, second, scans.pose(from).inverse() * scans.pose(to));
-  return overlaps_enough(found) ? found.shift : 0.0;
+  return is_clear(found) ? found.shift : 0.0;
 }
 
 PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic<bool>* cancel) {
@@ -217,7 +222,7 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
       found[i] = register_scans(clouds[from], clouds[to], poses[from].inverse() * poses[to]);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      if (!overlaps_enough(found[i])) continue;
+      if (!is_clear(found[i])) continue;
       distances.push_back(found[i].shift);
       noises.push_back(found[i].noise);
       fit.pairs.push_back({pairs[begin + i].from, pairs[begin + i].to, found[i].shift});
@@ -226,7 +231,7 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
   std::sort(fit.pairs.begin(), fit.pairs.end(), [](const PairDistance& a, const PairDistance& b) {
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);
   });
-  if (fit.pairs.empty()) return fit;
+  if (fit.pairs.size() < kFewestPairs) return {};
   fit.distance_m = median_in_place(distances);
   fit.noise_m = median_in_place(noises);
   return fit;

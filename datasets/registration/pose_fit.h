@@ -19,7 +19,8 @@ struct PairDistance {
 struct PoseFit {
   double distance_m = 0.0;          ///< Median over the pairs; 0 if there are none.
   double noise_m = 0.0;             ///< Median of what registration leaves: the sensor's noise.
-  std::vector<PairDistance> pairs;  ///< Those with enough overlap, by `from`, then `to`.
+  /// Those with enough overlap, by `from`, then `to`. Empty if they are fewer than four.
+  std::vector<PairDistance> pairs;
 };
 
 /// Above these, methods remove more than 2 % of what stands (docs/poses.md has the measurements).

@@ -132,7 +132,7 @@ Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, co
   const std::vector<SurfacePoint> points = thinned(to.points());
   Registration best{.T_from_to = guess};
   Matches matches = find_matches(from, points, guess, kLeastReach);
-  best.overlap = overlap_of(matches, points.size());
+  best.overlap = best.overlap_of_guess = overlap_of(matches, points.size());
   double gain = 0.0;
   for (const double reach : {kLeastReach, kWideReach}) {
     const Pose motion = refine(from, points, guess, reach);

@@ -11,8 +11,9 @@ struct Registration {
   Pose T_from_to = Pose::Identity();  ///< Registered.
   std::size_t matched = 0;            ///< Surface points with a counterpart, after registration.
   double overlap = 0.0;  ///< Share of the surface points of `to` on a surface of `from`, 0 to 1.
-  double noise = 0.0;    ///< Robust standard deviation of distances that registration leaves.
-  double shift = 0.0;    ///< RMS along the normals by which registration moved the surfaces.
+  double overlap_of_guess = 0.0;  ///< The same under the guess.
+  double noise = 0.0;  ///< Robust standard deviation of distances that registration leaves.
+  double shift = 0.0;  ///< RMS along the normals by which registration moved the surfaces.
 };
 
 /// Registers `to` to `from` from a guess of T_from_to that is right to about 3 m and 10 degrees:

@@ -84,6 +84,8 @@ constexpr double kLeastGround = 4.0;  ///< Square metres a scan.
 // What the usual direction must lack for another one to be up.
 constexpr double kMostFloor = 0.25;  ///< Floor of the usual direction, as a share of the other's.
 constexpr double kMostFloorByPath = 0.67;  ///< The same if the path contradicts it, too.
+constexpr double kMostSky = 0.5;           ///< The same under a sky, as a share of the usual one's.
+constexpr double kMostCeiling = 0.5;       ///< What faces the other's floor, as a share of it.
 constexpr double kLeastPath = 0.5;         ///< Metres that a path extends in two directions.
 constexpr double kFlatPath = 0.3;          ///< Its extent across them, as a share.
 
@@ -262,14 +264,16 @@ Vector3d find_upright(const Sides& sides, const Vector3d& ground) {
   return best;
 }
 
-/// Area of what lies level if up is `up`, and not above the sensor, square metres. It may lie at
-/// any distance, and on the level of an origin of the points that is not the sensor.
+/// Area of what faces `up` below the sensor, at any distance, square metres. The origin of points
+/// that are not in the frame of their sensor may lie on the floor.
 double floor_area(const Surfaces& surfaces, const Vector3d& up) {
   double area = 0.0;
   for (const auto* some : {&surfaces.all, &surfaces.far}) {
     for (const Surface& surface : *some) {
-      if (surface.from_sensor.dot(up) > kLowest) continue;
-      if (std::abs(surface.normal.dot(up)) >= cosine(2.0 * kGroundSpread)) area += surface.weight;
+      const double below = -surface.from_sensor.dot(up), along = surface.normal.dot(up);
+      const bool is_below = below > kLowest && along > 0.0;
+      if (!is_below && std::abs(below) > kLowest) continue;
+      if (std::abs(along) >= cosine(2.0 * kGroundSpread)) area += surface.weight;
     }
   }
   return area;
@@ -292,13 +296,22 @@ Vector3d normal_of_path(const ScanSource& scans) {
 }
 
 /// Whether the scans show that `usual` is not up, but about `ground` is. Facades beside a drone and
-/// the ceiling above a robot look like ground, too, so the floor below must be missing.
+/// the ceiling above a robot look like ground, too. So the floor below must be missing, and there
+/// must be no second facade that faces the first; or the path tells, or only the other direction
+/// leads to an open sky.
 bool is_contradicted(const Vector3d& usual, const Vector3d& ground, const Surfaces& surfaces,
                      const Vector3d& path) {
   const double floor = floor_area(surfaces, usual), other = floor_area(surfaces, ground);
-  if (floor < kMostFloor * other) return true;
-  return floor < kMostFloorByPath * other && !path.isZero() && std::abs(path.dot(usual)) < 0.5 &&
-         std::abs(path.dot(ground)) > 0.8;
+  const bool is_turned = std::abs(ground.dot(usual)) < 0.5;  // And not upside down.
+  if (is_turned && !path.isZero()) {
+    if (std::abs(path.dot(usual)) > 0.8) return false;
+    if (std::abs(path.dot(ground)) > 0.8) return floor < kMostFloorByPath * other;
+  }
+  // What faces the floor and the ground: a ceiling, an opposite facade, hardly anything of a sky.
+  const double closed = std::min(1.0, floor_area(surfaces, -usual) / std::max(floor, 1.0));
+  const double open = floor_area(surfaces, -ground) / std::max(other, 1.0);
+  if (is_turned && closed > kMostCeiling && open < kMostSky * closed) return true;
+  return floor < kMostFloor * other && !(is_turned && open > kMostCeiling);
 }
 
 Vector3d axis_meant(const Vector3d& ground, const Vector3d& usual) {

@@ -57,9 +57,9 @@ struct GravityEvidence {
 ///
 /// The ground is what lies below the sensor and faces it, in all scans alike; the mean z axis of
 /// the sensor decides only between directions of like support. If the ground does not face about
-/// `usual`, three kinds of evidence must contradict `usual` together: there is ground in the other
-/// direction, hardly any floor below the sensor at whatever distance, or somewhat little of it and
-/// a path in a plane across the other direction. Otherwise `usual` is up.
+/// `usual`, that is up all the same, unless hardly any floor lies below the sensor at whatever
+/// distance and nothing faces the ground, or the path lies in a plane across the ground's direction
+/// and there is less floor than ground, or something faces the floor and nothing the ground.
 ///
 /// A slope is ground as well, so the ground tells which axis of the world is meant, and upright
 /// surfaces (walls, trunks, sides of things) tell whether that axis is wrong. The answer is the

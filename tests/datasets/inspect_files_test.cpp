@@ -262,6 +262,7 @@ TEST_CASE("cleaning refuses what makes the map wrong, and does not mind labels",
                                          "lidar-poses-as-camera", "quaternion-order",
                                          "poses-in-millimetres", "poses-coarse", "viewpoint-twice",
                                          "viewpoint-missing", "sensor-elsewhere", "points-in-world",
+                                         "poses-do-not-fit", "beams-start-elsewhere",
                                          "poses-shifted", "poses-of-another-sequence",
                                          "poses-of-a-body", "poses-of-another-time"});
   CHECK(unused ==

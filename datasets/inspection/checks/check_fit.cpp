@@ -8,12 +8,16 @@
 #include "datasets/inspection/checks/checks.h"
 #include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/inspection/evidence/pose_hypotheses.h"
+#include "datasets/inspection/evidence/time_offset.h"
 
 namespace raymoval::inspection {
 namespace {
 
 using registration::PairDistance;
 using registration::PoseFit;
+
+/// What is left of the distance under a hypothesis that explains it.
+constexpr double kExplained = 0.25;
 
 bool is_wrong(const PairDistance& pair) {
   return pair.distance_m > registration::kMostDistanceOfPair;
@@ -82,7 +86,10 @@ std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
   for (const PoseHypothesis& hypothesis : pose_hypotheses(samples)) {
     const ReposedScans scans(*samples.sequence().scans, hypothesis);
     const PoseFit fit = registration::measure_pose_fit(scans, samples.threads(), samples.cancel());
-    if (!fits(fit) || 2 * fit.pairs.size() < given.pairs.size()) continue;
+    if (!fits(fit) || fit.distance_m > kExplained * given.distance_m ||
+        10 * fit.pairs.size() < 9 * given.pairs.size()) {
+      continue;
+    }
     for (const Check& check : pose_checks()) {
       if (check.name != hypothesis.check) continue;
       return Finding{.check = check.name,
@@ -96,18 +103,14 @@ std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
 }
 
 std::vector<Finding> look_at_fit(Samples& samples) {
-  if (samples.size() < 2 || samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) {
-    return {};
-  }
-  const PoseFit fit = registration::measure_pose_fit(*samples.sequence().scans, samples.threads(),
-                                                     samples.cancel());
-  samples.pose_fit = fit;
-  samples.measures.emplace_back("pose_fit_pairs", static_cast<double>(fit.pairs.size()));
-  if (fit.pairs.empty()) return {};
-  samples.measures.emplace_back("pose_fit_m", fit.distance_m);
-  samples.measures.emplace_back("pose_fit_worst_m", worst_pair(fit).distance_m);
-  samples.measures.emplace_back("pose_fit_noise_m", fit.noise_m);
+  const PoseFit& fit = measured_fit(samples);
   if (fits(fit)) return {};
+  if (const auto offset = find_time_offset(samples); offset && is_clear(*offset)) {
+    return {{.check = "time-offset",
+             .what = pose_fit_text(samples) + "; " + time_offset_text(*offset),
+             .expected = "scans and poses on one clock",
+             .remedy = "Say " + time_offset_option(samples, *offset) + "."}};
+  }
   if (const auto finding = explained(samples, fit)) return {*finding};
   const auto wrong = std::count_if(fit.pairs.begin(), fit.pairs.end(), is_wrong);
   return {{.what = pose_fit_text(samples) + "; " +

@@ -23,6 +23,7 @@ std::vector<Finding> look_for_ray_origin(Samples& samples) {
   for (const std::size_t k : evenly_spread(all.size(), kScans)) {
     chosen.push_back(samples.scans().at(all[k]));
   }
+  if (chosen.size() < kScans) return {};
   const registration::RayOrigin found = registration::find_ray_origin(chosen);
   const Eigen::Vector3d& at = found.origin;
   samples.measures.emplace_back("ray_lines", static_cast<double>(found.lines));

@@ -80,9 +80,10 @@ std::vector<Finding> look_for_jumps(Samples& samples) {
                                fixed_text(steps[at + 1], 2), and_more(jumps.size()))}};
 }
 
-/// What `pose_verdict` finds goes first: this is about poses that are nearly right.
+/// What `pose_verdict` finds goes first: this is about poses that are nearly right. Where they do
+/// not fit, `fit_checks` name the offset, for the map would be wrong.
 std::vector<Finding> look_for_time_offset(Samples& samples) {
-  if (!pose_verdict(samples).check.empty()) return {};
+  if (!pose_verdict(samples).check.empty() || !fits(measured_fit(samples))) return {};
   const std::optional<TimeOffset> offset = find_time_offset(samples);
   if (!offset || !is_clear(*offset)) return {};
   return {{.what = time_offset_text(*offset),

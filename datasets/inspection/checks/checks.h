@@ -39,7 +39,6 @@ std::vector<Check> world_checks();
 std::vector<Check> reach_checks();
 std::vector<Check> recording_checks();
 std::vector<Check> origin_checks();
-/// Measures `samples.pose_fit`, where no check before has found the poses to be of another kind.
 std::vector<Check> fit_checks();
 
 /// "hdl64e; the scans show 64 beams, 0.173 deg by 0.427 deg, ..."; "estimated: 64 beams, ...".

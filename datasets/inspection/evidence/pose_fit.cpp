@@ -243,6 +243,25 @@ Eigen::Vector3d middle_of(const Scan& scan) {
   return middle;
 }
 
+bool can_measure_fit(Samples& samples) {
+  return samples.size() > 1 && samples.point_scale() == 1.0 && pose_verdict(samples).check.empty();
+}
+
+const registration::PoseFit& measured_fit(Samples& samples) {
+  if (samples.pose_fit) return *samples.pose_fit;
+  samples.pose_fit.emplace();
+  if (!can_measure_fit(samples)) return *samples.pose_fit;
+  const registration::PoseFit fit = registration::measure_pose_fit(
+      *samples.sequence().scans, samples.threads(), samples.cancel());
+  samples.pose_fit = fit;
+  samples.measures.emplace_back("pose_fit_pairs", static_cast<double>(fit.pairs.size()));
+  if (fit.pairs.empty()) return *samples.pose_fit;
+  samples.measures.emplace_back("pose_fit_m", fit.distance_m);
+  samples.measures.emplace_back("pose_fit_worst_m", worst_pair(fit).distance_m);
+  samples.measures.emplace_back("pose_fit_noise_m", fit.noise_m);
+  return *samples.pose_fit;
+}
+
 const PoseVerdict& pose_verdict(Samples& samples) {
   if (!samples.pose_verdict) {
     PoseVerdict verdict = compare_hypotheses(samples);

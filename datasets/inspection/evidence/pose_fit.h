@@ -16,6 +16,12 @@ namespace raymoval::inspection {
 /// little in common (empty fields, a blocked sensor), nothing is said.
 const PoseVerdict& pose_verdict(Samples& samples);
 
+/// Whether it makes sense to measure how well poses fit: there are two scans or more, in metres,
+/// and `pose_verdict` is empty.
+bool can_measure_fit(Samples& samples);
+/// How well poses fit; without pairs where that cannot be measured.
+const registration::PoseFit& measured_fit(Samples& samples);
+
 /// Median of every tenth point of a scan, coordinate by coordinate.
 Eigen::Vector3d middle_of(const Scan& scan);
 

@@ -74,7 +74,7 @@ class Samples {
 
   /// The first check that needs it finds it.
   std::optional<PoseVerdict> pose_verdict;
-  /// Nothing if it was not measured, because something else is wrong.
+  /// The first check that needs it measures it.
   std::optional<registration::PoseFit> pose_fit;
   std::vector<std::pair<std::string, double>> measures;
 

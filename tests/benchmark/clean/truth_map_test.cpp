@@ -59,6 +59,7 @@ TEST_CASE("a labelled map is scored against itself and against parts of it", "[s
     write_cloud(folder / "cleaned.ply", kept);
     const ProtocolResult cleaned =
         score_map(folder / "truth.ply", folder / "cleaned.ply", "erasor");
+    for (const auto& [name, count] : cleaned.counts) UNSCOPED_INFO(name << " " << count);
     CHECK(cleaned.rate("PR").value() == Approx(90.0));
     CHECK(cleaned.rate("RR").value() == Approx(75.0));
     const ProtocolResult by_points =
