@@ -90,6 +90,9 @@ TEST_CASE("points in the frame of a vehicle are named, and brought to their sens
   check_silent(inspect_path(folder.text(), options));
   const Sequence brought = open_sequence(folder.text(), options);
   CHECK(brought.record().sensor_origin == "0.8,0.3,1.7");
+  // The advice on a wrong origin is about the stored points.
+  options.sensor_origin = sensor + Eigen::Vector3d(0.0, 1.0, 0.0);
+  check_finds(inspect_path(folder.text(), options), "beams-start-elsewhere", "--sensor-origin 0.");
   for (const std::size_t i : {std::size_t{0}, std::size_t{31}}) {
     const Scan seen = brought.scans->load(i), truth = street.scans->load(i);
     CHECK(seen.T_world_sensor.isApprox(truth.T_world_sensor, 1e-6));
