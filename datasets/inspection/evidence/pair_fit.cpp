@@ -212,7 +212,7 @@ Eigen::Vector3d position_on_body(const Samples& samples, const std::vector<SeenM
 
 std::vector<Pose> mounts_on_body(const Samples& samples, const std::vector<SeenMotion>& seen) {
   constexpr double kLeast = 1.0;  // metres of way, all pairs together
-  constexpr int kRounds = 5;
+  constexpr int kRounds = 20;
   double way = 0.0;
   for (const SeenMotion& one : seen) way += one.motion.translation().norm();
   if (way < kLeast) return {};

@@ -231,6 +231,29 @@ TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspec
   }
 }
 
+TEST_CASE("where a turned sensor is on its body is estimated from the turns of the body",
+          "[inspect][slow]") {
+  SimulationOptions walk = suburb(sensor_with_step("hdl32e", "0.332"), 60);  // Every second.
+  walk.scene = "walk";
+  walk.pose_noise = 0.0;
+  const EditedSequence drive(walk);
+  const TemporaryFolder folder;
+  write_scans(folder, drive, 0.1, as_seen);
+  Pose mount(Eigen::AngleAxisd(90.0 * kDegree, Eigen::Vector3d::UnitZ()));
+  mount.translation() = Eigen::Vector3d(0.85, 0.2, 0.4);
+  folder.write("poses.txt", pose_rows(drive, [&](const Scan& scan) {
+                 return matrix_of(scan.T_world_sensor * mount.inverse());
+               }));
+  SequenceOptions options;
+  const InspectionReport report = inspect_path(folder.text(), options);
+  check_finds(report, "poses-of-a-body", "--T-sensor 0.");
+  options.T_sensor = advised(report, "--T-sensor");
+  CHECK(found_with(folder, options).empty());
+  // Without the position, the poses do not fit.
+  options.T_sensor = "0,0,0,0,0,0.70711,0.70711";
+  CHECK(found_with(folder, options) == std::set<std::string>{"poses-do-not-fit"});
+}
+
 TEST_CASE("clocks that differ are told by how much, and agree once that is said",
           "[inspect][slow]") {
   const TemporaryFolder folder;
