@@ -15,7 +15,7 @@ folders="
 core                   . files process scan simd
 datasets               records clouds|fields|geometry registration trajectories bags ego|world_axes|deskew
 datasets               sequence_record sequence reading|settings layout
-datasets               semantickitti|dynamicmap|files|bag_scans helimos
+datasets               semantickitti|dynamicmap|files|bag_scans|truth_map helimos
 datasets               simulation layouts open_sequence inspection
 datasets/bags          bag|bag_file bag_index|unpack|messages ros1|mcap|ros2 open_bag
 datasets/clouds        format las|numpy .

@@ -39,7 +39,8 @@ std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
 
 /// Finds the points that keep their place in the sensor frame while the sensor moves. A wall or a
 /// guard rail along the way does so too, but it begins farther from the sensor or goes on; a
-/// vehicle ends. Nothing is found within 0.4 m of the ground and of a ceiling, which keep their place as well.
+/// vehicle ends. Nothing is found within 0.4 m of the ground and of a ceiling, which keep their
+/// place as well.
 /// @param scans scans apart, see `poses_apart`
 /// @param surfels of each of `scans`, see `find_surfels`, without those of the machine itself
 EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,

@@ -17,8 +17,8 @@ struct PairDistance {
 
 /// How well poses fit the scans.
 struct PoseFit {
-  double distance_m = 0.0;          ///< Median over the pairs; 0 if there are none.
-  double noise_m = 0.0;             ///< Median of what registration leaves: the sensor's noise.
+  double distance_m = 0.0;  ///< Median over the pairs; 0 if there are none.
+  double noise_m = 0.0;     ///< Median of what registration leaves: the sensor's noise.
   /// Those with enough overlap, by `from`, then `to`. Empty if they are fewer than four.
   std::vector<PairDistance> pairs;
 };
