@@ -8,8 +8,8 @@
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/deskew/deskew.h"
 #include "datasets/ego/ego_region.h"
+#include "datasets/ego/sensor_origin.h"
 #include "datasets/layouts.h"
-#include "datasets/reading/sensor_origin.h"
 
 namespace raymoval {
 namespace {

@@ -4,7 +4,7 @@
 #include "core/scan/local_frame.h"
 #include "datasets/deskew/deskew.h"
 #include "datasets/ego/ego_region.h"
-#include "datasets/reading/sensor_origin.h"
+#include "datasets/ego/sensor_origin.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {

@@ -14,7 +14,7 @@
 #include "core/text.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/deskew/deskew.h"
-#include "datasets/reading/sensor_origin.h"
+#include "datasets/ego/sensor_origin.h"
 #include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {

@@ -6,8 +6,8 @@
 #include "benchmark/suite/amounts.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/ego/sensor_origin.h"
 #include "datasets/reading/left_out.h"
-#include "datasets/reading/sensor_origin.h"
 #include "datasets/settings.h"
 
 namespace raymoval {

@@ -59,7 +59,7 @@ holds "it runs beside others" "$near" run --sequence street --frames 0:4 --quiet
   --method raymoval:online --set near.limit=8 --keep-removals --out run
 holds "it is scored" grep -qE '^street,near,default,erasor,ok,[0-9]+\.[0-9]+' run/results.csv
 holds "the other is scored" grep -q '^street,raymoval,online,erasor,ok,' run/results.csv
-holds "its parameter is kept" grep -q '"limit": 8' run/cells/street/near-default/cell.json
+holds "its parameter is kept" grep -q '"limit": 8' run/cells/street/near-default_/cell.json
 holds "it runs again with the same answers" "$near" run --sequence street --frames 0:4 --quiet \
   --method near --method raymoval:online --set near.limit=8 --out again
 holds "runs are compared" "$near" compare again run

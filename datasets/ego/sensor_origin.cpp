@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/reading/sensor_origin.h"
+#include "datasets/ego/sensor_origin.h"
 
 #include <cmath>
 #include <cstdint>
