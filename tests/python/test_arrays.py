@@ -166,7 +166,7 @@ class Mistakes(unittest.TestCase):
     def test_nan(self):
         # A scan without returns is a scan.
         scans = [self.scans[0], np.full((4, 3), np.nan, np.float32), self.scans[2]]
-        self.assertEqual([len(mask) for mask in self.clean(scans).masks], [4, 4, 4])
+        self.assertEqual([len(mask) for mask in self.clean(scans)], [4, 4, 4])
         infinite = [np.full((4, 3), np.inf, np.float32)] * 3
         self.refused(raymoval.DataError, "4 of 4 points are infinite", scans=infinite)
 
