@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/ego/ego_estimate.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -116,6 +117,36 @@ VoxelSet steady_cells(const std::vector<const Scan*>& scans, const GroundPlane& 
   return steady;
 }
 
+/// Drops of rain fill cells near the sensor as well, but all over. What belongs to a machine lies
+/// on surfaces.
+void erase_filled(const std::vector<const Scan*>& scans, VoxelSet& steady) {
+  constexpr double kThick = 0.05;  // metres, standard deviation; 0.07 if a cell is filled evenly
+  struct Moments {
+    double count = 0.0;
+    Vector3d sum = Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  };
+  VoxelMap<Moments> cells;
+  for (const Scan* scan : scans) {
+    for (const Eigen::Vector3f& point : scan->points) {
+      const Vector3d p = point.cast<double>();
+      if (!(p.norm() <= kReach)) continue;
+      const VoxelKey key = voxel_key(voxel_index(p, 1.0 / kEgoCell));
+      if (steady.count(key) == 0) continue;
+      Moments& cell = cells[key];
+      cell.count += 1.0;
+      cell.sum += p;
+      cell.squares += p * p.transpose();
+    }
+  }
+  for (const auto& [key, cell] : cells) {
+    const Vector3d mean = cell.sum / cell.count;
+    const Eigen::Matrix3d spread = cell.squares / cell.count - mean * mean.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
+    if (solver.eigenvalues()[0] > kThick * kThick) steady.erase(key);
+  }
+}
+
 /// Of `steady`, the cells that hang together with one near the sensor; empty if they go on.
 VoxelSet grown_from_sensor(const VoxelSet& steady) {
   const auto distance = [](VoxelKey key) {
@@ -184,7 +215,8 @@ EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
   EgoEstimate estimate;
   estimate.scans = scans.size();
   if (!estimate.can_tell()) return estimate;
-  const VoxelSet steady = steady_cells(scans, ground_of(scans.size(), surfels));
+  VoxelSet steady = steady_cells(scans, ground_of(scans.size(), surfels));
+  erase_filled(scans, steady);
   estimate.steady = steady.size();
   estimate.own = grown_from_sensor(steady);
   return estimate;

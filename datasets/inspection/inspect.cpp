@@ -17,6 +17,7 @@
 #include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/layouts.h"
 #include "datasets/settings.h"
 #include "datasets/trajectories/pose_file.h"

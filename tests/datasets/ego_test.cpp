@@ -100,6 +100,24 @@ TEST_CASE("the own vehicle is found where it goes along with the sensor", "[ego]
   CHECK_THAT(left_out_lines(sequence).at(0), Catch::Contains("as estimated"));
 }
 
+TEST_CASE("drops of rain around the sensor are no machine", "[ego]") {
+  EditedSequence drive = good_drive();
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> place(-1.0F, 1.0F);
+  for (Scan& scan : drive.scans) {
+    // Eight in each cell of 0.25 m, elsewhere in each scan.
+    for (int k = 0; k < 2048; ++k) {
+      const float x = place(random), y = place(random), z = 0.5F * place(random);
+      scan.points.emplace_back(x, y, z);
+    }
+    scan.reflectance.resize(scan.size(), 0.5F);
+    scan.stored_point_count = scan.size();
+    drive.words[scan.index].resize(scan.size(), 0);
+  }
+  const Sequence sequence = sequence_of(drive, "auto");
+  CHECK(sequence.scans->load(5).size() == drive.load(5).size());
+}
+
 TEST_CASE("where nothing goes along with the sensor nothing is left out", "[ego]") {
   EditedSequence drive = good_drive();
   drive.keep([](const Eigen::Vector3f& point) { return point.norm() > 2.7F; });
