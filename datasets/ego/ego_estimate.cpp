@@ -120,7 +120,7 @@ VoxelSet steady_cells(const std::vector<const Scan*>& scans, const GroundPlane& 
 /// Drops of rain fill cells near the sensor as well, but all over. What belongs to a machine lies
 /// on surfaces.
 void erase_filled(const std::vector<const Scan*>& scans, VoxelSet& steady) {
-  constexpr double kThick = 0.05;  // metres, standard deviation; 0.07 if a cell is filled evenly
+  constexpr double kThick = 0.035;  // metres, standard deviation; 0.07 if a cell is filled evenly
   struct Moments {
     double count = 0.0;
     Vector3d sum = Vector3d::Zero();
