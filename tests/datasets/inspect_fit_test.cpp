@@ -37,7 +37,8 @@ TEST_CASE("how well right poses fit is reported, and no finding", "[inspect]") {
   CHECK_THAT(report.pose_fit, Catch::Contains("poses fit to 0.000 m (median of "));
 }
 
-TEST_CASE("a jump of the poses is found between two frames, and each side fits", "[inspect]") {
+TEST_CASE("a jump of the poses is found between two frames, and each side fits",
+          "[inspect][slow]") {
   const auto jump = [](std::size_t scan) -> Eigen::Vector3d {
     return {0.0, scan < 30 ? 0.0 : 0.5, 0.0};
   };
@@ -48,7 +49,7 @@ TEST_CASE("a jump of the poses is found between two frames, and each side fits",
   check_silent(inspect_street(jump, before));
 }
 
-TEST_CASE("noise of the poses, a climb and a drift to the side do not fit", "[inspect]") {
+TEST_CASE("noise of the poses, a climb and a drift to the side do not fit", "[inspect][slow]") {
   const auto noise = [](std::size_t scan) -> Eigen::Vector3d {
     const auto level = [&](std::size_t step) {
       return 0.15 * (static_cast<double>(scan * step % 5) - 2.0) / 1.4;  // RMS 0.15 m
@@ -63,7 +64,7 @@ TEST_CASE("noise of the poses, a climb and a drift to the side do not fit", "[in
 }
 
 TEST_CASE("points in the frame of a vehicle are named, and brought to their sensor on request",
-          "[inspect]") {
+          "[inspect][slow]") {
   // The sensor stands 0.8 m ahead of the vehicle's origin, 0.3 m to its left and 1.7 m above it.
   const Eigen::Vector3d sensor(0.8, 0.3, 1.7);
   const Sequence street = make_street({}, street_boxes());
@@ -138,7 +139,7 @@ InspectionReport inspect_world(FlatWorld world) {
 }  // namespace
 
 TEST_CASE("floor and ceiling of a room are no part of the machine that carries the sensor",
-          "[inspect]") {
+          "[inspect][slow]") {
   // A room of 7 x 6 m and 2.5 m in height, and a sensor in the hand, 1.2 m above the floor.
   std::vector<Rectangle> room;
   for (const double z : {0.0, 2.5}) room.push_back({{0, 0, z}, {3.5, 0, 0}, {0, 3, 0}});
@@ -155,7 +156,7 @@ TEST_CASE("floor and ceiling of a room are no part of the machine that carries t
   check_silent(inspect_world(world));
 }
 
-TEST_CASE("a straight tunnel says nothing about skew", "[inspect]") {
+TEST_CASE("a straight tunnel says nothing about skew", "[inspect][slow]") {
   std::vector<Rectangle> tunnel;
   for (const double z : {0.0, 6.0}) tunnel.push_back({{0, 0, z}, {300, 0, 0}, {0, 4, 0}});
   for (const double y : {-4.0, 4.0}) tunnel.push_back({{0, y, 3}, {300, 0, 0}, {0, 0, 3}});
