@@ -135,4 +135,14 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   return " Supported are: " + join(candidates) + ".";
 }
 
+std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator) {
+  std::vector<double> numbers;
+  for (const std::string_view part : split(text, separator)) {
+    const auto number = parse_number<double>(part);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 }  // namespace raymoval

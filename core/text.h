@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,17 @@ std::optional<Number> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// The numbers between each `separator`; nothing if a piece is no finite number.
+std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator);
+
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+/// Whether each character is a digit; true for an empty text.
+inline bool all_digits(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), is_digit);
 }
 
 /// Pieces of `text` between blanks and tabs (also carriage returns); empty pieces are dropped.

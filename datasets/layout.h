@@ -71,7 +71,8 @@ struct Layout {
 Sequence make_sequence(const SequenceSettings& settings, const Layout& layout,
                        const FrameRange& range);
 
-/// Gives `sequence` what is known of the poses of its scans, and of the times of those with a pose.
+/// Copies the motion, notes and losses of `poses` into `sequence`, and the times of the scans that
+/// have a pose.
 void add_poses(const ScanPoses& poses, Sequence& sequence);
 
 /// Takes the poses of scans whose files cannot be read away (see `drop_bad_scans`).

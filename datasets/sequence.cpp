@@ -10,8 +10,7 @@
 namespace raymoval {
 
 UpDirection Sequence::up() const {
-  // From the scans as they were opened: reading them for this does not count as a method's reading.
-  return up_choice ? up_choice->get(opened ? *opened : *scans) : UpDirection{};
+  return up_choice ? up_choice->get(as_opened()) : UpDirection{};
 }
 
 Pose Sequence::method_frame() const {
@@ -28,14 +27,13 @@ namespace {
 
 /// The source that takes motion within scans out. Null if there is none.
 const DeskewedSource* deskewed_source(const Sequence& sequence) {
-  const ScanSource* source = (sequence.opened ? sequence.opened : sequence.scans).get();
-  return dynamic_cast<const DeskewedSource*>(source);
+  return dynamic_cast<const DeskewedSource*>(&sequence.as_opened());
 }
 
 /// The scans as they were opened, before motion within them is taken out.
 const ScanSource* skewed_source(const Sequence& sequence) {
   if (const DeskewedSource* deskewed = deskewed_source(sequence)) return &deskewed->whole();
-  return (sequence.opened ? sequence.opened : sequence.scans).get();
+  return &sequence.as_opened();
 }
 
 }  // namespace

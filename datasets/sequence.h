@@ -105,6 +105,8 @@ struct Sequence {
   /// Which way is up in the world of the poses. Null stands for the world's z axis.
   std::shared_ptr<const UpChoice> up_choice = nullptr;
 
+  /// The scans as they were opened. Reading them does not count as a method's reading.
+  [[nodiscard]] const ScanSource& as_opened() const { return opened ? *opened : *scans; }
   /// Which way is up. It is estimated from the scans at the first call, unless a user said it.
   /// @throws DataError if a scan cannot be read
   [[nodiscard]] UpDirection up() const;

@@ -29,16 +29,9 @@ Pose viewpoint_beside(const Cloud& cloud) {
 }
 
 /// DynamicMap's labels are 0 and 1; a map with SemanticKITTI's has others, too.
-LabelRule rule_of(const Cloud& cloud) {
-  const bool is_binary = std::all_of(cloud.intensity.begin(), cloud.intensity.end(),
-                                     [](float value) { return value == 0.0F || value == 1.0F; });
-  LabelRule rule;
-  if (!is_binary) return rule;
-  rule.name = "dynamicmap";
-  rule.moving = {1};
-  rule.class_names.erase(0);
-  rule.class_names.erase(1);
-  return rule;
+bool has_dynamicmap_labels(const Cloud& cloud) {
+  return std::all_of(cloud.intensity.begin(), cloud.intensity.end(),
+                     [](float value) { return value == 0.0F || value == 1.0F; });
 }
 
 }  // namespace
@@ -52,14 +45,17 @@ Sequence open_truth_map(const std::filesystem::path& file, const SequenceOptions
   }
   SequenceSettings settings;
   settings.name = file.stem().string();
-  settings.label_rule = rule_of(cloud);
+  Layout layout;
+  layout.class_names = semantickitti_class_names();
+  if (has_dynamicmap_labels(cloud)) {
+    layout = dynamicmap_layout();
+    settings.label_rule = {"dynamicmap", {1}, {}};
+  }
+  layout.name = kMapLayout;
   SequenceOptions chosen;
   chosen.label_rule = options.label_rule;
   chosen.name = options.name;
   settings = apply_options(chosen, settings);
-  Layout layout;
-  layout.name = kMapLayout;
-  layout.class_names = settings.label_rule.class_names;
   Sequence sequence = make_sequence(settings, layout, {});
   const std::vector<FrameEntry> entries = {{file, "", settings.name, 0.0, viewpoint_beside(cloud)}};
   sequence.labels = std::make_shared<IntensityLabelSource>(entries);

@@ -33,7 +33,7 @@ std::string cell_key(const CellIdentity& identity);
 
 /// A parameter as it stands in result files: 1.0 where `parameter_text` says 1, a text in quotes.
 std::string value_text(const ParameterValue& value);
-/// The same with a text as it is.
+/// The value as text; a text has no quotes.
 std::string plain_text(const ParameterValue& value);
 
 }  // namespace raymoval

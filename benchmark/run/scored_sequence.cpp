@@ -63,10 +63,7 @@ ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
 }  // namespace
 
 std::string pose_fit_line(const std::optional<PoseFitRecord>& fit) {
-  if (!fit || (fit->median_m <= registration::kMostDistance &&
-               fit->worst_m <= registration::kMostDistanceOfPair)) {
-    return "";
-  }
+  if (!fit || registration::is_within_limits(fit->median_m, fit->worst_m)) return "";
   return "poses fit to " + fixed_text(fit->median_m, 3) + " m (worst pair of scans " +
          fixed_text(fit->worst_m, 3) + " m); where they do not, methods remove static points. " +
          "`raymoval inspect` says more.";
@@ -110,10 +107,7 @@ const std::string& ScoredSequence::data_fingerprint() {
 
 std::optional<PoseFitRecord> ScoredSequence::measure_pose_fit(
     const std::atomic<bool>* cancel) const {
-  // From the scans as they were opened: this does not count as a method's reading.
-  const Sequence& read = sequence();
-  const auto fit =
-      registration::measure_pose_fit(read.opened ? *read.opened : *read.scans, threads_, cancel);
+  const auto fit = registration::measure_pose_fit(sequence().as_opened(), threads_, cancel);
   if (fit.pairs.empty()) return std::nullopt;
   return PoseFitRecord{fit.distance_m, registration::worst_pair(fit).distance_m, fit.pairs.size()};
 }

@@ -27,7 +27,7 @@ struct SequenceScores {
   std::optional<Reliability> reliability = std::nullopt;  ///< If there is a confidence.
 };
 
-/// A warning if poses fit so badly that methods remove what stands; else empty.
+/// A warning if methods would remove static points because the poses do not fit; else empty.
 std::string pose_fit_line(const std::optional<PoseFitRecord>& fit);
 
 /// An opened sequence with the protocols that score on it. What a protocol derives from scans and

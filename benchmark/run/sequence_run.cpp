@@ -130,12 +130,21 @@ void SequenceRuns::run(std::size_t sequence) {
   }
 }
 
+std::optional<PoseFitRecord> SequenceRuns::known_pose_fit(const std::string& sequence,
+                                                          const std::string& fingerprint) {
+  const std::lock_guard lock(mutex_);
+  const SequenceRecord* known = find_named(folder_.record.sequences, sequence);
+  if (known == nullptr || known->data.fingerprint != fingerprint) return std::nullopt;
+  return known->pose_fit;
+}
+
 bool SequenceRuns::read_data(ScoredSequence& scored, std::size_t sequence) {
   std::string fingerprint;
   std::optional<PoseFitRecord> fit;
   try {
     fingerprint = scored.data_fingerprint();
-    fit = scored.measure_pose_fit(suite_.options().cancel);
+    fit = known_pose_fit(scored.sequence().name, fingerprint);
+    if (!fit) fit = scored.measure_pose_fit(suite_.options().cancel);
   } catch (const DataError& error) {
     {
       const std::lock_guard lock(mutex_);

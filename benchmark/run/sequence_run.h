@@ -62,6 +62,9 @@ class SequenceRuns {
   void run_job(SharedSequence& shared, CellIndex index);
   /// @return null if there is nothing to do
   std::shared_ptr<ScoredSequence> open_shared(SharedSequence& shared, std::size_t sequence);
+  /// What run.json has of the poses of the same data. @return nothing if it was not measured
+  [[nodiscard]] std::optional<PoseFitRecord> known_pose_fit(const std::string& sequence,
+                                                            const std::string& fingerprint);
   /// Puts the fingerprint into run.json. @return false if the data cannot be read
   bool read_data(ScoredSequence& scored, std::size_t sequence);
   /// Its cells fail, in the tables at least: results that were stored before stay.

@@ -9,8 +9,8 @@
 
 namespace raymoval {
 
-/// BibTeX: this program, then what is added, each entry once. A method that is ours, or that has no
-/// publication, adds nothing or a comment.
+/// A list of BibTeX entries, each once: the entry of this program, then the added ones. A method of
+/// this project adds nothing, a method without a publication adds a comment.
 class Citations {
  public:
   /// @param methods lives as long as this object

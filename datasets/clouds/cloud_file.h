@@ -28,8 +28,8 @@ std::string cloud_extension(const std::filesystem::path& path);
 /// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
 std::string cloud_stem(const std::filesystem::path& path);
 
-/// How a file of a format that is not read becomes one that is, by the ending of its name; empty
-/// for others.
+/// For a file format that is not read: a sentence that names a program to convert it. The format is
+/// known by the extension; empty for other extensions.
 std::string conversion_text(const std::filesystem::path& path);
 
 /// Whether `path` names a file of points that is packed with gzip.

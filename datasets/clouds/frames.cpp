@@ -25,10 +25,6 @@ std::optional<long> range_part(const std::string& text, std::string_view part, c
   return value;
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// Takes a run of digits off the front of `text`, without its leading zeros.
 std::string_view take_digits(std::string_view& text) {
   std::size_t end = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/ego/sensor_origin.h"
 
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -16,15 +15,11 @@ namespace raymoval {
 static constexpr double kFarthestSensorOrigin = 100.0;
 
 Eigen::Vector3d parse_sensor_origin(const std::string& text) {
-  const auto parts = split(text, ',');
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  bool good = parts.size() == 3;
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const auto value = parse_number<double>(parts[i]);
-    good = value.has_value() && std::abs(*value) <= kFarthestSensorOrigin;
-    if (good) origin[static_cast<Eigen::Index>(i)] = *value;
+  const auto numbers = parse_numbers(text, ',');
+  if (numbers && numbers->size() == 3) {
+    const Eigen::Vector3d origin = Eigen::Map<const Eigen::Vector3d>(numbers->data());
+    if (origin.cwiseAbs().maxCoeff() <= kFarthestSensorOrigin) return origin;
   }
-  if (good) return origin;
   throw UsageError(text +
                    ": expected X,Y,Z, the position of the sensor in the frame of the points, " +
                    "up to " + number_text(kFarthestSensorOrigin) + " m, such as 1.2,0,1.8.");

@@ -53,6 +53,13 @@ const std::vector<InspectionCheck>& inspection_checks() {
   return checks;
 }
 
+const InspectionCheck& inspection::check_named(const std::string& name) {
+  for (const InspectionCheck& check : inspection_checks()) {
+    if (check.name == name) return check;
+  }
+  throw InternalError("no check is called " + name);
+}
+
 InspectionReport inspect(const Sequence& sequence, int threads, const std::atomic<bool>* cancel) {
   inspection::Samples samples(sequence, threads, cancel);
   InspectionReport report;
@@ -178,11 +185,12 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
   try {
     sequence = open_sequence(path, options, context);
   } catch (const PosesMissing& error) {
-    report.findings.push_back({.check = inspection::kMissingPoses,
-                               .where = error.gap().where,
-                               .what = error.gap().what,
-                               .expected = "a pose for each scan",
-                               .remedy = error.gap().remedy});
+    report.findings.push_back(
+        {.check = inspection::kMissingPoses,
+         .where = error.gap().where,
+         .what = error.gap().what,
+         .expected = inspection::check_named(inspection::kMissingPoses).expected,
+         .remedy = error.gap().remedy});
     return report;
   }
   return inspect(*sequence, context.threads, context.cancel);

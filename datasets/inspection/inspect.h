@@ -14,7 +14,7 @@ namespace raymoval {
 /// Looks for the usual mistakes in the data of `sequence`: about thirty scans are read, evenly
 /// spread, and the poses, sizes and times of all; to measure how well poses fit, two scans for each
 /// station along the path (see `measure_pose_fit`). Nothing is changed.
-/// @param threads at most so many are used; the report does not depend on it
+/// @param threads the largest number of threads; the report does not depend on it
 /// @throws DataError if a scan cannot be read; Cancelled
 InspectionReport inspect(const Sequence& sequence, int threads = 1,
                          const std::atomic<bool>* cancel = nullptr);

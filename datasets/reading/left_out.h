@@ -18,8 +18,8 @@ struct LeftOutPoints {
   std::uint64_t own_vehicle = 0;  ///< Of these, in its region.
 };
 
-/// "2 scans without a return, the first at position 14 from 0"; empty if there is none among the
-/// scans that were read so far.
+/// "1 of 60 scans have no return, the first is 000014.pcd; their masks are empty", of the scans
+/// that were read so far; empty if each has one.
 std::string empty_scans_line(const Sequence& sequence);
 
 /// What was left out of the scans of `sequence` that were read so far.

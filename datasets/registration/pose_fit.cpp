@@ -191,8 +191,7 @@ const PairDistance& worst_pair(const PoseFit& fit) {
 }
 
 bool fits(const PoseFit& fit) {
-  return fit.pairs.empty() ||
-         (fit.distance_m <= kMostDistance && worst_pair(fit).distance_m <= kMostDistanceOfPair);
+  return fit.pairs.empty() || is_within_limits(fit.distance_m, worst_pair(fit).distance_m);
 }
 
 double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to) {

@@ -30,14 +30,18 @@ inline constexpr double kMostDistanceOfPair = 0.07;  // metres
 /// The pair that fits worst. @param fit with pairs
 const PairDistance& worst_pair(const PoseFit& fit);
 
-/// Whether no distance is above the limits. True without pairs.
+/// Whether a median and a worst distance are within the limits.
+inline bool is_within_limits(double median_m, double worst_m) {
+  return median_m <= kMostDistance && worst_m <= kMostDistanceOfPair;
+}
+/// The same of a fit; true without pairs.
 bool fits(const PoseFit& fit);
 
 /// Measures how well the poses of `scans` fit: pairs of overlapping scans are registered, and the
 /// way by which that moves surfaces is the distance. Pairs cover the whole sequence: scans in
 /// succession, stations along the path, every fourth of these, and returns to a place. So a jump
 /// anywhere lies between two scans of a pair.
-/// @param threads at most so many are used; the answer does not depend on it
+/// @param threads the largest number of threads; the answer does not depend on it
 /// @throws DataError if a scan cannot be read; Cancelled
 PoseFit measure_pose_fit(const ScanSource& scans, int threads,
                          const std::atomic<bool>* cancel = nullptr);

@@ -47,10 +47,6 @@ const PoseColumns* columns_of(const std::vector<PoseColumns>& all, std::size_t c
   return found == all.end() ? nullptr : &*found;
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 std::vector<double> first_numbers(const PoseText& text) {
   std::vector<double> numbers;
   for (const std::string_view word : text.first().words) {
@@ -88,7 +84,7 @@ QuaternionOrder quaternion_order(const PoseText& text) {
 /// The times of EuRoC's files are whole nanoseconds since 1970.
 bool has_nanoseconds(const PoseText& text) {
   const std::string_view time = text.first().words.front();
-  return time.size() >= 17 && std::all_of(time.begin(), time.end(), is_digit);
+  return time.size() >= 17 && all_digits(time);
 }
 
 /// Whether a text of eight numbers a row is EuRoC's, or has TUM's order.
@@ -144,8 +140,7 @@ PoseFile read_numbered(const PoseText& text, PoseColumns columns) {
   bool numbered = columns.time.has_value();
   text.for_each_row([&](const TextRow& row) {
     const std::string_view word = row.words.front();
-    numbered =
-        numbered && word.size() <= kMostDigits && std::all_of(word.begin(), word.end(), is_digit);
+    numbered = numbered && word.size() <= kMostDigits && all_digits(word);
     if (numbered) frames.push_back(parse_number<long>(word).value_or(0));
   });
   if (!numbered) return read_columns(text, columns);

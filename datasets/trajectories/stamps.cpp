@@ -15,10 +15,6 @@ namespace {
 
 constexpr int kNanosecondDigits = 9;
 
-bool all_digits(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
 /// A decimal number: `digits` with the point behind the first `point` of them.
 struct Decimal {
   bool negative = false;
@@ -114,7 +110,7 @@ struct NameTime {
 
 std::string_view digits_at(std::string_view text, std::size_t at) {
   std::size_t end = at;
-  while (end < text.size() && all_digits(text.substr(end, 1))) ++end;
+  while (end < text.size() && is_digit(text[end])) ++end;
   return text.substr(at, end - at);
 }
 

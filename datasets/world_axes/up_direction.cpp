@@ -29,17 +29,12 @@ std::optional<Eigen::Vector3d> parse_up(const std::string& text) {
   if (const auto axis = axis_named(text.substr(is_signed ? 1 : 0))) {
     return Eigen::Vector3d(Eigen::Vector3d::Unit(*axis) * (negative ? -1.0 : 1.0));
   }
-  const auto parts = split(text, ',');
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  bool good = parts.size() == 3;
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const auto value = parse_number<double>(parts[i]);
-    good = value.has_value() && std::isfinite(*value);
-    if (good) up[static_cast<Eigen::Index>(i)] = *value;
-  }
+  const auto numbers = parse_numbers(text, ',');
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>(numbers->data());
   // Scaled first, so that no square overflows or vanishes.
   const double largest = up.cwiseAbs().maxCoeff();
-  if (!good || !(largest > 0.0)) return std::nullopt;
+  if (!(largest > 0.0)) return std::nullopt;
   return Eigen::Vector3d((up / largest).normalized());
 }
 

@@ -136,10 +136,9 @@ Command add_inspect_command(CommandParser& program) {
   options.set_footer(
       "Each finding is one line: what is wrong, where, what was expected, and what to do. Then "
       "follows\n"
-      "the sensor as it is named and as the scans show it, and how well the poses fit. About "
-      "thirty\n"
-      "scans are read, for the poses two more every few metres, and poses, times and sizes of "
-      "all.\n"
+      "the sensor, by its name and by the scans, and the distance by which the poses do not fit.\n"
+      "About thirty scans are read, two more every few metres for the poses, and the poses, times\n"
+      "and sizes of all.\n"
       "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
       "Examples:\n"
       "  raymoval inspect data/05\n"

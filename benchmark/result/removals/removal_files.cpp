@@ -84,6 +84,16 @@ std::vector<std::uint32_t> array_words(const std::filesystem::path& path, const 
   return words;
 }
 
+/// If the label files are in a folder below, the message names it. @throws DataError
+void check_level(const std::filesystem::path& folder, const Scan& scan) {
+  if (has_file(label_file(folder, scan))) return;
+  for (const char* below : {"labels", "predictions", "removals"}) {
+    if (!has_file(label_file(folder / below, scan))) continue;
+    throw DataError(folder.string() + ": holds no " + scan.name + ".label, but its folder " +
+                    below + "/ does. Name that one.");
+  }
+}
+
 /// Reads masks in which the points with one of the ids `removed` are removed.
 MaskStore read_masks(const std::filesystem::path& folder, const ScanSource& scans,
                      const LabelIds& removed, const std::function<void()>& after_scan,
@@ -91,6 +101,7 @@ MaskStore read_masks(const std::filesystem::path& folder, const ScanSource& scan
   MaskStore masks(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
+    if (i == 0) check_level(folder, scan);
     const std::filesystem::path array = folder / (scan.name + ".npy");
     const bool is_array = has_file(array);
     const auto words =
@@ -177,22 +188,11 @@ bool remove_removals(const std::filesystem::path& folder) {
 
 namespace {
 
-/// Who gives the folder above that of the label files is told.
-void check_level(const std::filesystem::path& folder, const Scan& scan) {
-  if (has_file(label_file(folder, scan))) return;
-  for (const char* below : {"labels", "predictions", "removals"}) {
-    if (!has_file(label_file(folder / below, scan))) continue;
-    throw DataError(folder.string() + ": holds no " + scan.name + ".label, but its folder " +
-                    below + "/ does. Name that one.");
-  }
-}
-
-void check_folder(const std::filesystem::path& folder, const ScanSource& scans) {
+void check_folder(const std::filesystem::path& folder) {
   if (!is_folder(folder)) {
     throw DataError(folder.string() + (is_there(folder) ? ": is no folder" : ": no such folder") +
                     "; expected one with a NNNNNN.label file for each scan.");
   }
-  if (scans.size() > 0) check_level(folder, scans.load(0));
 }
 
 /// The ids that mean removed in an answer without SemanticKITTI's labels for it; none if nobody
@@ -221,14 +221,14 @@ LabelIds other_removed_ids(const PredictedIds& found, const LabelRule& rule, std
 
 MaskStore read_removals(const std::filesystem::path& folder, const ScanSource& scans,
                         const std::function<void()>& after_scan) {
-  check_folder(folder, scans);
+  check_folder(folder);
   PredictedIds found;
   return read_masks(folder, scans, removed_labels(), after_scan, found);
 }
 
 Predictions read_predictions(const std::filesystem::path& folder, const ScanSource& scans,
                              const LabelRule& rule, const std::function<void()>& after_scan) {
-  check_folder(folder, scans);
+  check_folder(folder);
   Predictions read;
   read.masks = read_masks(folder, scans, removed_labels(), after_scan, read.found);
   if ((read.found.ids & removed_labels()).any()) return read;

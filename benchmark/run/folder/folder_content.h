@@ -31,7 +31,8 @@ void refuse_other_results(const std::filesystem::path& out, const std::string& w
 
 /// The fingerprint that a run.json has of a sequence; empty if it has none.
 std::string known_fingerprint(const RunRecord& record, const std::string& sequence);
-/// Puts what was read of a sequence into the record. @return whether that changed it
+/// Stores the fingerprint and the pose fit of a sequence in the record. @return whether that
+/// changed it
 bool set_reading(RunRecord& record, const std::string& sequence, const std::string& fingerprint,
                  const std::optional<PoseFitRecord>& fit);
 

@@ -16,7 +16,8 @@ namespace raymoval {
 /// driver.
 bool has_points(const std::string& type);
 
-/// A message with more points than this is refused: no sensor gives so many in a scan.
+/// Largest number of points of a message. A scan of a LiDAR has fewer; a message with more is
+/// refused.
 inline constexpr std::uint64_t kMostScanPoints = std::uint64_t{1} << 24;
 
 /// What a message with points begins with.

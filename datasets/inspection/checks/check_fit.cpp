@@ -90,14 +90,12 @@ std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
         10 * fit.pairs.size() < 9 * given.pairs.size()) {
       continue;
     }
-    for (const Check& check : pose_checks()) {
-      if (check.name != hypothesis.check) continue;
-      return Finding{.check = check.name,
-                     .what = fmt::format("{}, and to {} m {}", pose_fit_text(samples),
-                                         fixed_text(fit.distance_m, 3), hypothesis.phrase),
-                     .expected = check.expected,
-                     .remedy = hypothesis.remedy.empty() ? check.remedy : hypothesis.remedy};
-    }
+    const Check& check = check_named(hypothesis.check);
+    return Finding{.check = check.name,
+                   .what = fmt::format("{}, and to {} m {}", pose_fit_text(samples),
+                                       fixed_text(fit.distance_m, 3), hypothesis.phrase),
+                   .expected = check.expected,
+                   .remedy = hypothesis.remedy.empty() ? check.remedy : hypothesis.remedy};
   }
   return std::nullopt;
 }
@@ -108,7 +106,7 @@ std::vector<Finding> look_at_fit(Samples& samples) {
   if (const auto offset = find_time_offset(samples); offset && is_clear(*offset)) {
     return {{.check = "time-offset",
              .what = pose_fit_text(samples) + "; " + time_offset_text(*offset),
-             .expected = "scans and poses on one clock",
+             .expected = check_named("time-offset").expected,
              .remedy = "Say " + time_offset_option(samples, *offset) + "."}};
   }
   if (const auto finding = explained(samples, fit)) return {*finding};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
 #include "datasets/inspection/evidence/pose_fit.h"
@@ -27,12 +26,7 @@ std::string remedy_of(const Eigen::Vector3d& given, const Eigen::Vector3d& right
 
 std::vector<Finding> look_for_ray_origin(Samples& samples) {
   if (samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) return {};
-  std::vector<std::size_t> all;
-  for (const auto& [index, scan] : samples.scans()) all.push_back(index);
-  std::vector<Scan> chosen;
-  for (const std::size_t k : evenly_spread(all.size(), kScans)) {
-    chosen.push_back(samples.scans().at(all[k]));
-  }
+  const std::vector<Scan> chosen = samples.some_scans(kScans);
   if (chosen.size() < kScans) return {};
   const registration::RayOrigin found = registration::find_ray_origin(chosen);
   const Eigen::Vector3d& at = found.origin;

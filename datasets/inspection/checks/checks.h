@@ -38,6 +38,9 @@ std::vector<Check> skew_checks();
 std::vector<Check> world_checks();
 std::vector<Check> reach_checks();
 std::vector<Check> recording_checks();
+/// The check of this name. @throws InternalError if there is none
+const Check& check_named(const std::string& name);
+
 std::vector<Check> origin_checks();
 std::vector<Check> fit_checks();
 

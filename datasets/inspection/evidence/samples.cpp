@@ -121,14 +121,17 @@ std::string Samples::pose_source() const {
   return sequence_.poses_file.empty() ? "poses" : sequence_.poses_file;
 }
 
-const SensorModel& Samples::seen_sensor() const {
-  if (seen_sensor_) return *seen_sensor_;
-  constexpr std::size_t kMost = 5;
+std::vector<Scan> Samples::some_scans(std::size_t most) const {
   std::vector<std::size_t> all;
   for (const auto& [index, scan] : scans_) all.push_back(index);
   std::vector<Scan> chosen;
-  for (const std::size_t k : evenly_spread(all.size(), kMost)) chosen.push_back(scans_.at(all[k]));
-  seen_sensor_ = estimate_sensor_model(chosen);
+  for (const std::size_t k : evenly_spread(all.size(), most)) chosen.push_back(scans_.at(all[k]));
+  return chosen;
+}
+
+const SensorModel& Samples::seen_sensor() const {
+  if (seen_sensor_) return *seen_sensor_;
+  seen_sensor_ = estimate_sensor_model(some_scans(5));
   return *seen_sensor_;
 }
 

@@ -46,6 +46,8 @@ class Samples {
   [[nodiscard]] const std::vector<FrameEntry>& files() const { return files_; }
   /// Scans that were read, by position. Points are metres (see `point_scale`).
   [[nodiscard]] const std::map<std::size_t, Scan>& scans() const { return scans_; }
+  /// Some of them, evenly spread.
+  [[nodiscard]] std::vector<Scan> some_scans(std::size_t most) const;
   [[nodiscard]] const std::vector<ScanPair>& pairs() const { return pairs_; }
   /// What the points were multiplied with to be metres: 1, or 0.001 where half of them lie farther
   /// away than metres can be.
