@@ -161,6 +161,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
     scans.push_back(scan);
     entries.push_back({scan, "", cloud_stem(scan), poses.times_s[i], *poses.poses[i]});
   }
+  sequence.T_body_sensor = place.settings.T_body_sensor;
   sequence.notes = std::move(notes);
   add_poses(poses, sequence);
   sequence.input_files.insert(sequence.input_files.end(), input_files.begin(), input_files.end());

@@ -102,6 +102,7 @@ struct Sequence {
   std::optional<double> scan_period_s;
   /// Calibration "Tr" where the pose file has poses of a camera; the scans' poses contain it.
   std::optional<Pose> T_camera_lidar = std::nullopt;
+  std::optional<Pose> T_body_sensor = std::nullopt;  ///< Of `T_sensor`, applied to the poses.
   /// Which way is up in the world of the poses. Null stands for the world's z axis.
   std::shared_ptr<const UpChoice> up_choice = nullptr;
 

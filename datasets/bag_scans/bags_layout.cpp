@@ -275,6 +275,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   if (is_folder(path)) take(sequence.input_files, entries_of(path));
   const PoseSettings pose_settings =
       raymoval::pose_settings(settings, folder, sequence.input_files);
+  sequence.T_body_sensor = pose_settings.T_body_sensor;
   FoundScanPoses found =
       settings.poses
           ? poses_of_file(heads, bag->topics()[topic], settings, folder, pose_settings, sequence)

@@ -242,6 +242,7 @@ ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRa
 ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSettings& settings,
                       const ScanKeys& keys, Sequence& sequence) {
   PoseSettings options = pose_settings(settings, folder, sequence.input_files);
+  sequence.T_body_sensor = options.T_body_sensor;
   sequence.poses_file = kStandingSensor;
   if (settings.poses == kStandingSensor) return standing_poses(keys, options);
   const auto path = find_pose_file(folder, settings.poses);

@@ -142,8 +142,8 @@ Eigen::Vector3d turn_vector(const Pose& motion) {
   return turn.angle() * turn.axis();
 }
 
-Pose given_motion(const Samples& samples, const ScanPair& pair) {
-  return samples.poses()[pair.from].inverse() * samples.poses()[pair.to];
+Pose given_motion(const std::vector<Pose>& poses, const ScanPair& pair) {
+  return poses[pair.from].inverse() * poses[pair.to];
 }
 
 /// Without a sign before a zero.
@@ -154,11 +154,11 @@ std::string rounded_text(double value, double step) {
 
 }  // namespace
 
-bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen) {
+bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>& seen) {
   constexpr double kSame = 0.02;  // radians
   std::size_t same = 0;
   for (const SeenMotion& one : seen) {
-    const double given = turn_vector(given_motion(samples, one.pair)).norm();
+    const double given = turn_vector(given_motion(poses, one.pair)).norm();
     if (std::abs(given - turn_vector(one.motion).norm()) < kSame) ++same;
   }
   return !seen.empty() && 4 * same >= 3 * seen.size();
@@ -167,12 +167,12 @@ bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen) 
 namespace {
 
 /// R_body_sensor for a sensor at `position` on the body: about z, and any.
-std::array<Eigen::Matrix3d, 2> turns_on_body(const Samples& samples,
+std::array<Eigen::Matrix3d, 2> turns_on_body(const std::vector<Pose>& poses,
                                              const std::vector<SeenMotion>& seen,
                                              const Eigen::Vector3d& position) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (const SeenMotion& one : seen) {
-    const Pose given = given_motion(samples, one.pair);
+    const Pose given = given_motion(poses, one.pair);
     const Eigen::Vector3d way = given * position - position;  // Of the sensor, in the body's frame.
     moments += way * one.motion.translation().transpose();
     moments += kTurnLever * kTurnLever * turn_vector(given) * turn_vector(one.motion).transpose();
@@ -187,13 +187,13 @@ std::array<Eigen::Matrix3d, 2> turns_on_body(const Samples& samples,
 }
 
 /// Least squares of (R_given - I) t = R_body_sensor t_seen - t_given.
-Eigen::Vector3d position_on_body(const Samples& samples, const std::vector<SeenMotion>& seen,
-                                 const Eigen::Matrix3d& turn) {
+Eigen::Vector3d position_on_body(const std::vector<Pose>& poses,
+                                 const std::vector<SeenMotion>& seen, const Eigen::Matrix3d& turn) {
   constexpr double kLeastTurn = 0.2;  // radians, all pairs together: else noise decides
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sides = Eigen::Vector3d::Zero();
   for (const SeenMotion& one : seen) {
-    const Pose given = given_motion(samples, one.pair);
+    const Pose given = given_motion(poses, one.pair);
     const Eigen::Matrix3d part = given.linear() - Eigen::Matrix3d::Identity();
     squares += part.transpose() * part;
     sides += part.transpose() * (turn * one.motion.translation() - given.translation());
@@ -210,7 +210,8 @@ Eigen::Vector3d position_on_body(const Samples& samples, const std::vector<SeenM
 
 }  // namespace
 
-std::vector<Pose> mounts_on_body(const Samples& samples, const std::vector<SeenMotion>& seen) {
+std::vector<Pose> mounts_on_body(const std::vector<Pose>& poses,
+                                 const std::vector<SeenMotion>& seen) {
   constexpr double kLeast = 1.0;  // metres of way, all pairs together
   constexpr int kRounds = 20;
   double way = 0.0;
@@ -219,8 +220,8 @@ std::vector<Pose> mounts_on_body(const Samples& samples, const std::vector<SeenM
   std::vector<Pose> mounts(2, Pose::Identity());
   for (std::size_t k = 0; k < mounts.size(); ++k) {
     for (int round = 0; round < kRounds; ++round) {
-      mounts[k].linear() = turns_on_body(samples, seen, mounts[k].translation())[k];
-      mounts[k].translation() = position_on_body(samples, seen, mounts[k].linear());
+      mounts[k].linear() = turns_on_body(poses, seen, mounts[k].translation())[k];
+      mounts[k].translation() = position_on_body(poses, seen, mounts[k].linear());
     }
   }
   return mounts;

@@ -99,14 +99,15 @@ class PairFit {
 
 /// Whether the sensor turns by about the angles that its poses turn by, about whatever axis. This
 /// does not depend on how the sensor is turned on the body that has the poses.
-bool turns_as_much(const Samples& samples, const std::vector<SeenMotion>& seen);
+bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>& seen);
 
 /// T_body_sensor under which the poses of a body move as the scans do (hand-eye calibration, Park
 /// and Martin 1994, with turns and ways weighed by `kTurnLever`): first with the best turn about z,
 /// then with the best of all turns, which a motion along nearly one line leaves open. The position
 /// is 0 in directions that the turns of the body do not show; there it changes no motion, either.
 /// Nothing if the scans hardly move.
-std::vector<Pose> mounts_on_body(const Samples& samples, const std::vector<SeenMotion>& seen);
+std::vector<Pose> mounts_on_body(const std::vector<Pose>& poses,
+                                 const std::vector<SeenMotion>& seen);
 
 /// "90 degrees about z", or roll, pitch and yaw.
 std::string turn_text(const Eigen::Matrix3d& turn);

@@ -125,28 +125,54 @@ Reached best_of(const Samples& samples, const PairFit& fit,
   return best;
 }
 
-/// Poses of a body on which the sensor is turned, the simplest turn first.
-std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
-                                            const std::vector<SeenMotion>& seen) {
-  const auto& poses = samples.poses();
+/// The hypotheses that the sensor is turned on a body whose poses are `poses`, the simplest turn
+/// first.
+std::vector<PoseHypothesis> turned_on_body(const std::vector<Pose>& poses,
+                                           const std::vector<SeenMotion>& seen) {
   std::vector<PoseHypothesis> all;
-  for (const Pose& mount : mounts_on_body(samples, seen)) {
+  if (!turns_as_much(poses, seen)) return all;
+  for (const Pose& mount : mounts_on_body(poses, seen)) {
     PoseHypothesis hypothesis{"poses-of-a-body",
                               "if the sensor is turned by " + turn_text(mount.linear()) +
                                   " on the body that has the poses",
-                              [&poses, mount](std::size_t i) { return Pose(poses[i] * mount); }};
-    if (samples.sequence().T_sensor) {
-      hypothesis.remedy =
-          "Multiply the pose of --T-sensor by " + mounting_text(mount) + ", from the right.";
-    } else if (!samples.sequence().T_camera_lidar) {
-      hypothesis.remedy = "Say --T-sensor " + mounting_text(mount) + ".";
-      if (mount.translation().isZero()) {
-        hypothesis.remedy +=
-            " The sensor turns too little to tell its position on the body; put "
-            "it in place of the zeros if you know it.";
-      }
+                              [poses, mount](std::size_t i) { return Pose(poses[i] * mount); },
+                              "--T-sensor " + mounting_text(mount) + "."};
+    if (mount.translation().isZero()) {
+      hypothesis.remedy +=
+          " The sensor turns too little to tell its position on the body; put "
+          "it in place of the zeros if you know it.";
     }
     all.push_back(std::move(hypothesis));
+  }
+  return all;
+}
+
+/// Poses of a body on which the sensor is turned: as they are given, or misread.
+std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
+                                            const std::vector<SeenMotion>& seen) {
+  const std::optional<Pose>& T_body_sensor = samples.sequence().T_body_sensor;
+  const bool of_camera = samples.sequence().T_camera_lidar.has_value();
+  std::vector<PoseHypothesis> all = turned_on_body(samples.poses(), seen);
+  for (PoseHypothesis& hypothesis : all) {
+    const std::string option = std::exchange(hypothesis.remedy, "");
+    if (T_body_sensor) {
+      hypothesis.remedy = "Multiply the pose of --T-sensor from the right by the pose of " + option;
+    } else if (!of_camera) {
+      hypothesis.remedy = "Say " + option;
+    }
+  }
+  if (of_camera) return all;
+  for (const MisreadPoses& read : misread_poses(samples)) {
+    std::vector<Pose> poses = samples.poses();
+    for (Pose& pose : poses) {
+      pose = read.right(T_body_sensor ? Pose(pose * T_body_sensor->inverse()) : pose);
+    }
+    for (PoseHypothesis& hypothesis : turned_on_body(poses, seen)) {
+      hypothesis.check = read.check;
+      hypothesis.phrase = read.phrase + " and " + hypothesis.phrase;
+      hypothesis.remedy = "Say " + read.option + " " + hypothesis.remedy;
+      all.push_back(std::move(hypothesis));
+    }
   }
   return all;
 }
@@ -167,8 +193,7 @@ std::optional<PoseHypothesis> time_hypothesis(Samples& samples) {
 Reached best_hypothesis(Samples& samples, const PairFit& fit,
                         std::vector<PoseHypothesis> hypotheses) {
   const std::vector<SeenMotion> seen = fit.seen_motions();
-  std::vector<PoseHypothesis> fitted;
-  if (turns_as_much(samples, seen)) fitted = body_hypotheses(samples, seen);
+  std::vector<PoseHypothesis> fitted = body_hypotheses(samples, seen);
   if (auto time = time_hypothesis(samples)) {
     std::erase_if(hypotheses, [](const auto& other) { return other.check == "poses-shifted"; });
     fitted.push_back(std::move(*time));

@@ -81,8 +81,6 @@ bool have_quaternions(const Samples& samples) {
 /// camera, and the other way round, so each motion stands here once.
 void add_frame_hypotheses(const std::vector<Pose>& poses, const Pose& C,
                           std::vector<PoseHypothesis>& all) {
-  all.push_back({"poses-inverted", "under the inverse of each pose",
-                 [&poses](std::size_t i) { return poses[i].inverse(); }});
   all.push_back({"camera-frame", "if the poses are those of a camera (x right, y down, z ahead)",
                  [&poses, C](std::size_t i) { return C.inverse() * poses[i] * C; }});
   all.push_back({"lidar-poses-as-camera",
@@ -105,13 +103,30 @@ void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& a
 
 }  // namespace
 
+std::vector<MisreadPoses> misread_poses(const Samples& samples) {
+  std::vector<MisreadPoses> all = {{"poses-inverted", "under the inverse of each pose",
+                                    [](const Pose& pose) { return Pose(pose.inverse()); },
+                                    "--pose-format inverse"}};
+  if (!have_quaternions(samples)) return all;
+  for (const bool w_first : {true, false}) {
+    if (w_first == samples.has_viewpoints()) continue;
+    all.push_back(
+        {"quaternion-order",
+         w_first ? "if quaternions are read as w x y z" : "if quaternions are read as x y z w",
+         [w_first](const Pose& pose) {
+           return with_rotation(pose, reordered_quaternion(pose.linear(), w_first));
+         },
+         w_first ? "--pose-format euroc" : "--pose-format tum"});
+  }
+  return all;
+}
+
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
   const auto& poses = samples.poses();
   const std::size_t last = poses.size() - 1;
   std::vector<PoseHypothesis> all;
   add_frame_hypotheses(poses, camera_of(samples), all);
   add_world_hypotheses(samples, all);
-  const bool quaternions = have_quaternions(samples);
   if (longest_step(poses) > kTooFast) {
     all.push_back(
         {"poses-in-millimetres", "if positions are divided by 1,000", [&poses](std::size_t i) {
@@ -120,14 +135,11 @@ std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
            return pose;
          }});
   }
-  for (const bool w_first : {true, false}) {
-    if (w_first == samples.has_viewpoints() || !quaternions) continue;
-    all.push_back(
-        {"quaternion-order",
-         w_first ? "if quaternions are read as w x y z" : "if quaternions are read as x y z w",
-         [&poses, w_first](std::size_t i) {
-           return with_rotation(poses[i], reordered_quaternion(poses[i].linear(), w_first));
-         }});
+  const Pose T_body_sensor = samples.sequence().T_body_sensor.value_or(Pose::Identity());
+  for (const MisreadPoses& read : misread_poses(samples)) {
+    all.push_back({read.check, read.phrase, [read, &poses, T_body_sensor](std::size_t i) {
+                     return Pose(read.right(poses[i] * T_body_sensor.inverse()) * T_body_sensor);
+                   }});
   }
   all.push_back({"poses-shifted", "if each scan takes the pose of the scan after it",
                  [&poses, last](std::size_t i) { return poses[std::min(i + 1, last)]; }});

@@ -20,6 +20,19 @@ struct PoseHypothesis {
   std::string remedy = {};  ///< With numbers; empty: what the check says in general.
 };
 
+/// Poses whose numbers were read in another form than they were written in.
+struct MisreadPoses {
+  std::string check;
+  std::string phrase;
+  /// The pose that was meant, from the pose that was read. Both are of the body that has the poses.
+  std::function<Pose(const Pose&)> right;
+  std::string option;  ///< Reads the form that was meant: "--pose-format inverse".
+};
+
+/// Inverse poses, and the other order of quaternions where the pose file has quaternions.
+/// @throws DataError if the pose file cannot be read
+std::vector<MisreadPoses> misread_poses(const Samples& samples);
+
 /// All that are worth trying for these poses; refers to `samples.poses()`.
 /// @throws DataError as file_kind.h says if the calibration or the poses cannot be read
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples);

@@ -107,6 +107,20 @@ void write_timed(const TemporaryFolder& folder, const EditedSequence& drive, dou
                }));
 }
 
+/// A walk with a sensor that is mounted at `kMount`.
+const EditedSequence& walk() {
+  static const EditedSequence drive = [] {
+    SimulationOptions options = suburb(sensor_with_step("hdl32e", "0.332"), 60);  // Every second.
+    options.scene = "walk";
+    options.pose_noise = 0.0;
+    return EditedSequence(options);
+  }();
+  return drive;
+}
+
+const Pose kMount = Eigen::Translation3d(0.85, 0.2, 0.4) *
+                    Eigen::AngleAxisd(90.0 * kDegree, Eigen::Vector3d::UnitZ());
+
 std::set<std::string> found_with(const TemporaryFolder& folder, const SequenceOptions& options) {
   const InspectionReport report = inspect_path(folder.text(), options);
   INFO(text_of(report));
@@ -233,16 +247,11 @@ TEST_CASE("poses of a body on which the sensor is turned are told how", "[inspec
 
 TEST_CASE("where a turned sensor is on its body is estimated from the turns of the body",
           "[inspect][slow]") {
-  SimulationOptions walk = suburb(sensor_with_step("hdl32e", "0.332"), 60);  // Every second.
-  walk.scene = "walk";
-  walk.pose_noise = 0.0;
-  const EditedSequence drive(walk);
+  const EditedSequence& drive = walk();
   const TemporaryFolder folder;
   write_scans(folder, drive, 0.1, as_seen);
-  Pose mount(Eigen::AngleAxisd(90.0 * kDegree, Eigen::Vector3d::UnitZ()));
-  mount.translation() = Eigen::Vector3d(0.85, 0.2, 0.4);
-  folder.write("poses.txt", pose_rows(drive, [&](const Scan& scan) {
-                 return matrix_of(scan.T_world_sensor * mount.inverse());
+  folder.write("poses.txt", pose_rows(drive, [](const Scan& scan) {
+                 return matrix_of(scan.T_world_sensor * kMount.inverse());
                }));
   SequenceOptions options;
   const InspectionReport report = inspect_path(folder.text(), options);
@@ -252,6 +261,33 @@ TEST_CASE("where a turned sensor is on its body is estimated from the turns of t
   // Without the position, the poses do not fit.
   options.T_sensor = "0,0,0,0,0,0.70711,0.70711";
   CHECK(found_with(folder, options) == std::set<std::string>{"poses-do-not-fit"});
+}
+
+TEST_CASE("misread poses of a body are named, with and without the mount of the sensor",
+          "[inspect][slow]") {
+  const EditedSequence& drive = walk();
+  const TemporaryFolder folder;
+  write_scans(folder, drive, 0.1, as_seen);
+  const auto check_both = [&](const std::string& name, const std::string& format) {
+    SequenceOptions options;
+    options.T_sensor = "0.85,0.2,0.4,0,0,0.70711,0.70711";
+    check_finds(inspect_path(folder.text(), options), name, "--pose-format " + format);
+    options.T_sensor.reset();
+    const InspectionReport report = inspect_path(folder.text(), options);
+    check_finds(report, name, "--pose-format " + format + " --T-sensor 0.");
+    options.T_sensor = advised(report, "--T-sensor");
+    options.pose_format = format;
+    CHECK(found_with(folder, options).empty());
+  };
+  folder.write("poses.txt", pose_rows(drive, [](const Scan& scan) {
+                 return matrix_of(kMount * scan.T_world_sensor.inverse());
+               }));
+  check_both("poses-inverted", "inverse");
+  folder.write("poses.txt", pose_rows(drive, [](Scan scan) {
+                 scan.T_world_sensor = scan.T_world_sensor * kMount.inverse();
+                 return scalar_first(scan);
+               }));
+  check_both("quaternion-order", "euroc");
 }
 
 TEST_CASE("clocks that differ are told by how much, and agree once that is said",
