@@ -124,8 +124,27 @@ PointClock point_clock_of(Sequence& sequence) {
   return clock;
 }
 
+/// Merged clouds are split where a method reads them (see `with_split_sensors`).
+void check_merged(const Sequence& sequence) {
+  const SensorPlaces& places = *sequence.sensor_origin;
+  if (sequence.records == nullptr) {
+    throw UsageError("--sensor-origin " + sensor_places_text(places) + ": sequence " +
+                     sequence.name + " has no fields of points. Leave it out.");
+  }
+  const Scan scan = sequence.scans->load(0);
+  for (const std::int64_t number : sensor_numbers(*sequence.records, scan, places.field)) {
+    if (places.by_number.count(number) != 0) continue;
+    throw DataError("scan " + scan.name + ": has points of sensor " + std::to_string(number) +
+                    " (field '" + places.field +
+                    "'), expected the numbers that --sensor-origin "
+                    "gives. Add /" +
+                    std::to_string(number) + "=X,Y,Z to it.");
+  }
+}
+
 void bring_to_sensor_origin(Sequence& sequence) {
-  const Eigen::Vector3d& origin = *sequence.sensor_origin;
+  if (!sequence.sensor_origin->field.empty()) return check_merged(sequence);
+  const Eigen::Vector3d& origin = sequence.sensor_origin->one;
   sequence.scans = std::make_shared<SensorOriginSource>(sequence.scans, origin);
   if (sequence.motion == nullptr) return;
   const Pose T_points_sensor(Eigen::Translation3d{origin});

@@ -55,7 +55,7 @@ DataRecord Sequence::record() const {
     data.drop_ego = {ego_region_text(without_ego->asked()), ego_region_text(without_ego->region())};
   }
   if (T_sensor) data.T_sensor = std::filesystem::path(*T_sensor).filename().string();
-  if (sensor_origin) data.sensor_origin = sensor_origin_text(*sensor_origin);
+  if (sensor_origin) data.sensor_origin = sensor_places_text(*sensor_origin);
   data.time_offset_s = time_offset_s;
   if (const DeskewedSource* deskewed = deskewed_source(*this)) data.deskew = deskewed->clock().text;
   if (labels) data.label_rule = label_rule;

@@ -14,6 +14,7 @@
 #include "core/scan/scan_source.h"
 #include "datasets/clouds/frames.h"
 #include "datasets/ego/ego_region.h"
+#include "datasets/ego/sensor_places.h"
 #include "datasets/records/record_source.h"
 #include "datasets/sequence_record.h"
 #include "datasets/trajectories/trajectory.h"
@@ -42,7 +43,7 @@ struct SequenceOptions {
   std::optional<std::string> point_layout;  ///< Fields of .bin and .npy files, "x y z intensity".
   std::optional<PointFrame> points;         ///< The frame that points are stored in.
   std::optional<std::string> T_sensor;  ///< Sensor in the frame of the poses: a file, or 7 numbers.
-  std::optional<Eigen::Vector3d> sensor_origin;  ///< Of the rays, in the frame of the points.
+  std::optional<SensorPlaces> sensor_origin;  ///< In the frame of the points.
   std::optional<double> time_offset_s;  ///< Added to the times of scans before poses are looked up.
   std::optional<double> max_gap_s;      ///< Longest time between poses that are interpolated.
   std::optional<std::string> pose_format;      ///< Name in the list of pose formats.
@@ -88,10 +89,10 @@ struct Sequence {
   std::vector<Nanoseconds> stamps = {};
   /// Whether motion within a scan is taken out, as a user asked.
   bool deskew = false;
-  std::optional<std::string> point_time_unit = std::nullopt;    ///< As a user says it.
-  std::optional<std::string> T_sensor = std::nullopt;           ///< As a user says it.
-  std::optional<Eigen::Vector3d> sensor_origin = std::nullopt;  ///< As a user says it, metres.
-  std::optional<double> time_offset_s = std::nullopt;           ///< As a user says it.
+  std::optional<std::string> point_time_unit = std::nullopt;  ///< As a user says it.
+  std::optional<std::string> T_sensor = std::nullopt;         ///< As a user says it.
+  std::optional<SensorPlaces> sensor_origin = std::nullopt;   ///< As a user says it.
+  std::optional<double> time_offset_s = std::nullopt;         ///< As a user says it.
   LabelRule label_rule;
   bool moving_now = false;  ///< Labels move only in scans in which what they belong to moves.
   RangeLimits range_m;

@@ -14,7 +14,7 @@
 #include "core/text.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/deskew/deskew.h"
-#include "datasets/ego/sensor_origin.h"
+#include "datasets/ego/sensor_places.h"
 #include "datasets/trajectories/body_sensor.h"
 
 namespace raymoval {
@@ -77,7 +77,7 @@ void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
   settings.deskew = file.flag("deskew", settings.deskew);
   if (file.has("sensor_origin")) {
     settings.sensor_origin = read_in_file(file.place("sensor_origin"), [&] {
-      return parse_sensor_origin(file.text("sensor_origin"));
+      return parse_sensor_places(file.text("sensor_origin"));
     });
   }
   settings.skip_bad_scans = file.flag("skip_bad_scans", settings.skip_bad_scans);

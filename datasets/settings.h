@@ -30,8 +30,8 @@ struct SequenceSettings {
   bool label_rule_given = false;  ///< Whether an option or sequence.json gives it.
   bool moving_now = false;        ///< Whether the rule is `kMovingNow`.
   std::optional<std::string> pose_format;
-  std::optional<std::string> T_sensor;  ///< As the user gives it: a file, or seven numbers.
-  std::optional<Eigen::Vector3d> sensor_origin;  ///< Of the rays, in the frame of the points.
+  std::optional<std::string> T_sensor;        ///< As the user gives it: a file, or seven numbers.
+  std::optional<SensorPlaces> sensor_origin;  ///< In the frame of the points.
   std::optional<double> time_offset_s;
   std::optional<double> max_gap_s;
   std::optional<PointFrame> points;

@@ -12,6 +12,7 @@
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
+#include "benchmark/process/split_sensors.h"
 #include "core/scan/local_frame.h"
 #include "datasets/layouts.h"
 #include "methods/controls/controls.h"
@@ -152,7 +153,7 @@ void check_has_labels(const Sequence& sequence) {
 }
 
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence) {
-  if (!method.entry->needs_truth) return method.make();
+  if (!method.entry->needs_truth) return with_split_sensors(method.make(), sequence);
   check_has_labels(sequence);
   return make_replay([labels = sequence.labels, rule = sequence.label_rule](const Scan& scan) {
     const std::vector<std::uint32_t> words = labels->labels(scan);

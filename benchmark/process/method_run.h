@@ -67,7 +67,8 @@ MethodAnswer run_method(const MethodTask& task);
 /// @throws DataError that points to `raymoval clean` if `sequence` has no labels
 void check_has_labels(const Sequence& sequence);
 
-/// The remover of `method`; one that needs the truth answers from the labels.
+/// The remover of `method`, with merged clouds split into their sensors; one that needs the truth
+/// answers from the labels. `sequence` must outlive it.
 /// @throws DataError if it needs labels and there are none
 std::unique_ptr<Remover> make_remover(const ConfiguredMethod& method, const Sequence& sequence);
 

@@ -6,7 +6,7 @@
 #include "benchmark/suite/amounts.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/ego/sensor_origin.h"
+#include "datasets/ego/sensor_places.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/settings.h"
 
@@ -60,9 +60,10 @@ const std::vector<ReadingOption>& reading_options() {
        set_text<&Options::T_sensor>},
       {"sensor-origin", "X,Y,Z",
        "Position of the sensor in the frame of the points, metres, where that is not the sensor's "
-       "own: points in the frame of a vehicle",
+       "own: points in the frame of a vehicle. Merged clouds of several sensors: "
+       "FIELD:NUMBER=X,Y,Z/NUMBER=X,Y,Z, where FIELD names the sensor of a point",
        [](Options& o, Text option, Text text) {
-         o.sensor_origin = in_option(option, [&] { return parse_sensor_origin(text); });
+         o.sensor_origin = in_option(option, [&] { return parse_sensor_places(text); });
        }},
       {"time-offset", "SECONDS", "Added to the times of the scans before poses are looked up",
        set_time_offset},

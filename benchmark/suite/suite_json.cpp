@@ -13,7 +13,7 @@
 #include "core/files/files.h"
 #include "core/name.h"
 #include "core/text.h"
-#include "datasets/ego/sensor_origin.h"
+#include "datasets/ego/sensor_places.h"
 #include "datasets/open_sequence.h"
 #include "datasets/settings.h"
 #include "eval/protocol_registry.h"
@@ -320,7 +320,7 @@ ordered_json to_json(const SequenceRequest& place) {
   add("name", options.name);
   add("pose_format", options.pose_format);
   add("T_sensor", options.T_sensor);
-  if (options.sensor_origin) add("sensor_origin", sensor_origin_text(*options.sensor_origin));
+  if (options.sensor_origin) add("sensor_origin", sensor_places_text(*options.sensor_origin));
   add("point_time_unit", options.point_time_unit);
   if (options.time_offset_s) add("time_offset_s", number_text(*options.time_offset_s));
   if (options.max_gap_s) add("max_gap_s", number_text(*options.max_gap_s));

@@ -11,24 +11,6 @@
 
 namespace raymoval {
 
-/// No vehicle is larger than this many metres.
-static constexpr double kFarthestSensorOrigin = 100.0;
-
-Eigen::Vector3d parse_sensor_origin(const std::string& text) {
-  const auto numbers = parse_numbers(text, ',');
-  if (numbers && numbers->size() == 3) {
-    const Eigen::Vector3d origin = Eigen::Map<const Eigen::Vector3d>(numbers->data());
-    if (origin.cwiseAbs().maxCoeff() <= kFarthestSensorOrigin) return origin;
-  }
-  throw UsageError(text +
-                   ": expected X,Y,Z, the position of the sensor in the frame of the points, " +
-                   "up to " + number_text(kFarthestSensorOrigin) + " m, such as 1.2,0,1.8.");
-}
-
-std::string sensor_origin_text(const Eigen::Vector3d& origin) {
-  return number_text(origin.x()) + "," + number_text(origin.y()) + "," + number_text(origin.z());
-}
-
 SensorOriginSource::SensorOriginSource(std::shared_ptr<const ScanSource> whole,
                                        const Eigen::Vector3d& origin)
     : whole_(std::move(whole)), origin_(origin), sensor_(std::nullopt) {}

@@ -3,18 +3,11 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <string>
 
 #include "core/scan/scan_source.h"
 #include "datasets/clouds/file_source.h"
 
 namespace raymoval {
-
-/// "1.2,0,1.8": metres in the frame of the points. @throws UsageError saying what the form is
-Eigen::Vector3d parse_sensor_origin(const std::string& text);
-
-/// What `parse_sensor_origin` reads.
-std::string sensor_origin_text(const Eigen::Vector3d& origin);
 
 /// Scans of another source whose points stand in the frame of a vehicle, brought to their sensor:
 /// `origin` is subtracted from the points, and T_world_sensor is moved by it. Axes stay. Points

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/angle.h"
 #include "core/point_tree.h"
@@ -57,41 +58,92 @@ void add_lines(const Scan& scan, std::vector<Line>& lines) {
   }
 }
 
-/// Mean of how far the lines leave the cones around `origin`, each from 0 to 1.
-double misfit(const std::vector<Line>& lines, const Vector3d& origin, double fits = kFits) {
+/// How far a line leaves the cone around `origin`, from 0 to 1.
+double misfit(const Line& line, const Vector3d& origin, double fits) {
+  const Vector3d ray = (line.at - origin).normalized();
+  if (std::abs(ray.z()) < kLevel) return 0.5;
+  const Vector3d rising = (Vector3d::UnitZ() - ray.z() * ray).normalized();
+  // Across the ray: what lies along it is the noise of ranges, and the slope of the surface.
+  const Vector3d seen = (line.direction - line.direction.dot(ray) * ray).normalized();
+  const double angle = std::asin(std::min(1.0, std::abs(seen.dot(rising))));
+  return std::min(1.0, angle / (fits * kDegree));
+}
+
+std::vector<double> misfits(const std::vector<Line>& lines, const Vector3d& origin,
+                            double fits = kFits) {
+  std::vector<double> all;
+  all.reserve(lines.size());
+  for (const Line& line : lines) all.push_back(misfit(line, origin, fits));
+  return all;
+}
+
+/// Mean of the misfits, each at most `other`.
+double mean_misfit(const std::vector<Line>& lines, const Vector3d& origin, double fits,
+                   const std::vector<double>& other) {
   double sum = 0.0;
-  for (const Line& line : lines) {
-    const Vector3d ray = (line.at - origin).normalized();
-    if (std::abs(ray.z()) < kLevel) {
-      sum += 0.5;
-      continue;
-    }
-    const Vector3d rising = (Vector3d::UnitZ() - ray.z() * ray).normalized();
-    // Across the ray: what lies along it is the noise of ranges, and the slope of the surface.
-    const Vector3d seen = (line.direction - line.direction.dot(ray) * ray).normalized();
-    const double angle = std::asin(std::min(1.0, std::abs(seen.dot(rising))));
-    sum += std::min(1.0, angle / (fits * kDegree));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    sum += std::min(other[i], misfit(lines[i], origin, fits));
   }
   return sum / static_cast<double>(lines.size());
 }
 
-/// The best of a grid around `origin`.
-void search_grid(const std::vector<Line>& lines, double span, int steps, double fits,
-                 RayOrigin& best) {
-  const Vector3d centre = best.origin;
-  best.misfit_found = misfit(lines, centre, fits);
+/// The best of a grid around `origin`, which it replaces; lines that fit `other` better count so.
+/// @param other misfits to another origin; all 1 if there is none
+/// @return its misfit
+double search_grid(const std::vector<Line>& lines, double span, int steps, double fits,
+                   const std::vector<double>& other, Vector3d& origin) {
+  const Vector3d centre = origin;
+  double best = mean_misfit(lines, centre, fits, other);
   for (int x = -steps; x <= steps; ++x) {
     for (int y = -steps; y <= steps; ++y) {
       for (int z = -steps; z <= steps; ++z) {
-        const Vector3d origin = centre + span / steps * Vector3d(x, y, z);
-        const double reached = misfit(lines, origin, fits);
-        if (reached < best.misfit_found) {
-          best.misfit_found = reached;
-          best.origin = origin;
-        }
+        const Vector3d at = centre + span / steps * Vector3d(x, y, z);
+        const double reached = mean_misfit(lines, at, fits, other);
+        if (reached >= best) continue;
+        best = reached;
+        origin = at;
       }
     }
   }
+  return best;
+}
+
+/// Two origins, and how well the lines fit the nearer of both.
+struct TwoOrigins {
+  Vector3d first, second;
+  double gain = 0.0;   ///< Of misfit, beside that of the best single origin.
+  double share = 0.0;  ///< Of the lines that clearly fit one of them those that fit the second.
+};
+
+TwoOrigins two_origins(const std::vector<Scan>& scans) {
+  constexpr double kClearly = 0.2;
+  const RayOrigin single = find_ray_origin(scans);
+  std::vector<Line> lines;
+  for (const Scan& scan : scans) add_lines(scan, lines);
+  TwoOrigins two{single.origin, Vector3d::Zero()};
+  if (lines.empty()) return two;
+  // Loose at first, as for one origin.
+  search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, misfits(lines, two.first, 8.0 * kFits),
+              two.second);
+  search_grid(lines, 0.5, 3, 4.0 * kFits, misfits(lines, two.first, 4.0 * kFits), two.second);
+  search_grid(lines, 0.5, 3, 4.0 * kFits, misfits(lines, two.second, 4.0 * kFits), two.first);
+  double reached = 1.0;
+  for (int round = 0; round < 2; ++round) {
+    for (const double span : {0.5, 0.2, 0.05}) {
+      search_grid(lines, span, 2, kFits, misfits(lines, two.second), two.first);
+      reached = search_grid(lines, span, 2, kFits, misfits(lines, two.first), two.second);
+    }
+  }
+  two.gain = single.misfit_found - reached;
+  const auto to_first = misfits(lines, two.first), to_second = misfits(lines, two.second);
+  std::size_t first = 0, second = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (to_first[i] < to_second[i] - kClearly) ++first;
+    if (to_second[i] < to_first[i] - kClearly) ++second;
+  }
+  two.share =
+      static_cast<double>(second) / static_cast<double>(std::max<std::size_t>(first + second, 1));
+  return two;
 }
 
 }  // namespace
@@ -102,12 +154,37 @@ RayOrigin find_ray_origin(const std::vector<Scan>& scans) {
   RayOrigin found;
   found.lines = lines.size();
   if (lines.empty()) return found;
-  found.misfit_given = misfit(lines, Vector3d::Zero());
+  const std::vector<double> none(lines.size(), 1.0);
+  found.misfit_given = mean_misfit(lines, Vector3d::Zero(), kFits, none);
   // Loose at first: half a metre beside the origin hardly any line fits closely.
-  search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, found);
-  search_grid(lines, 0.5, 3, 4.0 * kFits, found);
-  for (const double span : {0.3, 0.2, 0.1, 0.05, 0.02}) search_grid(lines, span, 2, kFits, found);
+  search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, none, found.origin);
+  search_grid(lines, 0.5, 3, 4.0 * kFits, none, found.origin);
+  for (const double span : {0.3, 0.2, 0.1, 0.05, 0.02}) {
+    found.misfit_found = search_grid(lines, span, 2, kFits, none, found.origin);
+  }
   return found;
+}
+
+std::optional<std::array<Vector3d, 2>> find_merged_origins(const std::vector<Scan>& scans) {
+  constexpr double kGain = 0.1, kLeastShare = 0.35, kApart = 0.8, kSame = 0.4;  // two in metres
+  std::array<TwoOrigins, 2> found;
+  for (std::size_t half = 0; half < 2; ++half) {
+    std::vector<Scan> some;
+    for (std::size_t i = half; i < scans.size(); i += 2) some.push_back(scans[i]);
+    TwoOrigins& two = found[half] = two_origins(some);
+    if (two.gain < kGain || std::abs(two.share - 0.5) > 0.5 - kLeastShare ||
+        (two.first - two.second).norm() < kApart) {
+      return std::nullopt;
+    }
+    const TwoOrigins& before = found[0];
+    if ((two.first - before.first).norm() > (two.first - before.second).norm()) {
+      std::swap(two.first, two.second);
+    }
+    if ((two.first - before.first).norm() > kSame || (two.second - before.second).norm() > kSame) {
+      return std::nullopt;
+    }
+  }
+  return std::array<Vector3d, 2>{found[0].first, found[0].second};
 }
 
 }  // namespace raymoval::registration

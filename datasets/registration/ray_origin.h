@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -24,5 +26,10 @@ struct RayOrigin {
 /// LiDAR no lines fit anywhere, and `misfit_found` stays high.
 /// @param scans points in one frame that is fixed to the sensor, z along its axis
 RayOrigin find_ray_origin(const std::vector<Scan>& scans);
+
+/// The origins of two LiDARs whose clouds were merged, at least 0.8 m apart, if either half of
+/// `scans` shows the same two within 0.4 m; else nothing. Lines of one LiDAR do not repeat that.
+/// @param scans as `find_ray_origin`, at least two
+std::optional<std::array<Eigen::Vector3d, 2>> find_merged_origins(const std::vector<Scan>& scans);
 
 }  // namespace raymoval::registration

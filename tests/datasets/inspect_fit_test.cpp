@@ -5,7 +5,7 @@
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/ego/sensor_origin.h"
+#include "datasets/ego/sensor_places.h"
 #include "datasets/open_sequence.h"
 #include "tests/datasets/flat_world.h"
 #include "tests/datasets/inspect_data.h"
@@ -83,7 +83,7 @@ TEST_CASE("points in the frame of a vehicle are named, and brought to their sens
   check_finds(report, "beams-start-elsewhere", "--sensor-origin 0.");
   const std::string& remedy = report.findings[0].remedy;
   const std::string text = remedy.substr(remedy.rfind(' ') + 1);
-  const Eigen::Vector3d advised = parse_sensor_origin(text.substr(0, text.size() - 1));
+  const Eigen::Vector3d advised = parse_sensor_places(text.substr(0, text.size() - 1)).one;
   CHECK((advised - sensor).norm() < 0.15);
 
   SequenceOptions options;
@@ -92,7 +92,7 @@ TEST_CASE("points in the frame of a vehicle are named, and brought to their sens
   const Sequence brought = open_sequence(folder.text(), options);
   CHECK(brought.record().sensor_origin == "0.8,0.3,1.7");
   // The advice on a wrong origin is about the stored points.
-  options.sensor_origin = sensor + Eigen::Vector3d(0.0, 1.0, 0.0);
+  options.sensor_origin = Eigen::Vector3d(sensor + Eigen::Vector3d::UnitY());
   check_finds(inspect_path(folder.text(), options), "beams-start-elsewhere", "--sensor-origin 0.");
   for (const std::size_t i : {std::size_t{0}, std::size_t{31}}) {
     const Scan seen = brought.scans->load(i), truth = street.scans->load(i);
@@ -118,11 +118,11 @@ TEST_CASE("missing returns that were moved with their sensor are left out", "[in
   REQUIRE(scan.size() == 1);
   CHECK(scan.points[0].isApprox(Eigen::Vector3f(5.0F, 0.0F, 0.0F), 1e-6F));
   CHECK(scan.stored_position(0) == 1);
-  CHECK(scan.T_world_sensor.translation().isApprox(*options.sensor_origin));
+  CHECK(scan.T_world_sensor.translation().isApprox(options.sensor_origin->one));
 
-  CHECK_THROWS_AS(parse_sensor_origin("1.2,0"), UsageError);
-  CHECK_THROWS_AS(parse_sensor_origin("1.2,0,up"), UsageError);
-  CHECK_THROWS_AS(parse_sensor_origin("1200,0,0"), UsageError);
+  CHECK_THROWS_AS(parse_sensor_places("1.2,0"), UsageError);
+  CHECK_THROWS_AS(parse_sensor_places("1.2,0,up"), UsageError);
+  CHECK_THROWS_AS(parse_sensor_places("1200,0,0"), UsageError);
 }
 
 namespace {

@@ -176,7 +176,7 @@ void ScanFolder::add(const CleanedScan& scan) {
   if (files != nullptr && !files->frames()[scan.scan.index].label_path.empty()) {
     write_labels(files->frames()[scan.scan.index].label_path, keep);
   }
-  pose_rows_ += pose_row(scan.scan, sequence_.sensor_origin.value_or(Eigen::Vector3d::Zero()));
+  pose_rows_ += pose_row(scan.scan, sequence_.sensor_origin.value_or(SensorPlaces()).one);
 }
 
 void ScanFolder::finish() {

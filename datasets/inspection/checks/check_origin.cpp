@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
 #include "core/text.h"
+#include "datasets/ego/sensor_places.h"
 #include "datasets/inspection/checks/checks.h"
 #include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/registration/ray_origin.h"
@@ -17,17 +23,106 @@ constexpr double kNear = 0.3;  // metres from the frame's origin that change no 
 /// scan line are not found, and nothing is said.
 constexpr double kFound = 0.56, kGain = 0.06;
 
+/// Whether the lines show where the beams start.
+bool is_known(const registration::RayOrigin& found) {
+  return found.lines >= kFewestLines && found.misfit_found <= kFound;
+}
+
+/// Whether they show that this is not the origin of the points.
+bool is_elsewhere(const registration::RayOrigin& found) {
+  return is_known(found) && found.origin.norm() >= kNear &&
+         found.misfit_given - found.misfit_found >= kGain;
+}
+
+std::string place_text(const Eigen::Vector3d& place) {
+  return fixed_text(place.x(), 2) + "," + fixed_text(place.y(), 2) + "," + fixed_text(place.z(), 2);
+}
+
 /// @param given what a user says already @param right the origin in the frame of the stored points
 std::string remedy_of(const Eigen::Vector3d& given, const Eigen::Vector3d& right) {
   if (right.norm() < kNear && !given.isZero()) return "Leave --sensor-origin out.";
-  return fmt::format("Say --sensor-origin {},{},{}.", fixed_text(right.x(), 2),
-                     fixed_text(right.y(), 2), fixed_text(right.z(), 2));
+  return "Say --sensor-origin " + place_text(right) + ".";
+}
+
+/// The field that names the sensor of a point; empty if there is none.
+std::string sensor_field(const Samples& samples) {
+  const std::optional<SensorPlaces>& given = samples.sequence().sensor_origin;
+  if (given && !given->field.empty()) return given->field;
+  const auto& records = samples.sequence().records;
+  if (records == nullptr || samples.scans().empty()) return "";
+  const RecordLayout layout = records->layout(samples.scans().begin()->first);
+  const PointField* field = find_sensor_field(layout);
+  return field == nullptr ? "" : field->name;
+}
+
+/// The points of each sensor of merged clouds, with their origin at `places` where it is given.
+/// Empty if the points name no sensor, or only one.
+std::map<std::int64_t, std::vector<Scan>> clouds_of_sensors(const Samples& samples,
+                                                            const SensorPlaces& places) {
+  constexpr std::size_t kMostSensors = 16;
+  std::map<std::int64_t, std::vector<Scan>> clouds;
+  if (places.field.empty()) return clouds;
+  for (const Scan& whole : samples.some_scans(kScans)) {
+    std::map<std::int64_t, Scan> of_sensor;
+    const auto numbers = sensor_numbers(*samples.sequence().records, whole, places.field);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const auto place = places.by_number.find(numbers[i]);
+      Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+      if (place != places.by_number.end()) origin = place->second.cast<float>();
+      of_sensor[numbers[i]].points.push_back(whole.points[i] - origin);
+    }
+    for (auto& [number, scan] : of_sensor) clouds[number].push_back(std::move(scan));
+    if (clouds.size() > kMostSensors) return {};
+  }
+  if (clouds.size() == 1) clouds.clear();
+  return clouds;
+}
+
+/// What merged clouds whose points name their sensor show of the places of the sensors.
+struct SeenSensors {
+  bool are_merged = false;
+  bool are_known = true;  ///< The place of each sensor is known.
+  std::vector<Finding> findings = {};
+};
+
+SeenSensors look_at_sensors(const Samples& samples) {
+  SensorPlaces places = samples.sequence().sensor_origin.value_or(SensorPlaces());
+  const bool given = !places.field.empty();
+  places.field = sensor_field(samples);
+  const auto clouds = clouds_of_sensors(samples, places);
+  if (clouds.empty()) return {};
+  SeenSensors seen{true};
+  std::vector<std::string> parts;
+  bool wrong = false;
+  for (const auto& [number, scans] : clouds) {
+    const registration::RayOrigin found = registration::find_ray_origin(scans);
+    const bool known = given || is_known(found);
+    if (is_elsewhere(found)) places.by_number[number] += found.origin;
+    wrong = wrong || is_elsewhere(found) || !known;
+    seen.are_known = seen.are_known && known;
+    parts.push_back(std::to_string(number) + "=" +
+                    (known ? place_text(places.by_number[number]) : "X,Y,Z"));
+  }
+  if (!wrong) return seen;
+  Finding finding;
+  finding.where = samples.all_frames();
+  finding.what = fmt::format("field '{}' names {} sensors whose clouds are merged", places.field,
+                             clouds.size());
+  finding.remedy = "Say --sensor-origin " + places.field + ":" + join(parts, "/") + ".";
+  if (!seen.are_known) {
+    finding.remedy += " X,Y,Z is the position of a sensor in the frame of the points.";
+  }
+  seen.findings = {finding};
+  return seen;
 }
 
 std::vector<Finding> look_for_ray_origin(Samples& samples) {
   if (samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) return {};
   const std::vector<Scan> chosen = samples.some_scans(kScans);
   if (chosen.size() < kScans) return {};
+  if (const SeenSensors seen = look_at_sensors(samples); seen.are_merged) {
+    return seen.are_known ? seen.findings : std::vector<Finding>();
+  }
   const registration::RayOrigin found = registration::find_ray_origin(chosen);
   const Eigen::Vector3d& at = found.origin;
   samples.measures.emplace_back("ray_lines", static_cast<double>(found.lines));
@@ -36,16 +131,27 @@ std::vector<Finding> look_for_ray_origin(Samples& samples) {
   samples.measures.emplace_back("ray_origin_x", at.x());
   samples.measures.emplace_back("ray_origin_y", at.y());
   samples.measures.emplace_back("ray_origin_z", at.z());
-  if (found.lines < kFewestLines || at.norm() < kNear || found.misfit_found > kFound ||
-      found.misfit_given - found.misfit_found < kGain) {
-    return {};
-  }
-  const Eigen::Vector3d given = samples.sequence().sensor_origin.value_or(Eigen::Vector3d::Zero());
+  if (!is_elsewhere(found)) return {};
+  const Eigen::Vector3d given = samples.sequence().sensor_origin.value_or(SensorPlaces()).one;
   return {{.where = samples.all_frames(),
-           .what = fmt::format("scan lines show that the beams start at ({}, {}, {}) m and not at "
-                               "the origin of the points' frame",
-                               fixed_text(at.x(), 2), fixed_text(at.y(), 2), fixed_text(at.z(), 2)),
+           .what = "scan lines show that the beams start at (" + place_text(at) +
+                   ") m and not at the origin of the points' frame",
            .remedy = remedy_of(given, given + at)}};
+}
+
+std::vector<Finding> look_for_merged(Samples& samples) {
+  constexpr std::size_t kMergedScans = 6;
+  if (samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) return {};
+  if (const SeenSensors seen = look_at_sensors(samples); seen.are_merged) {
+    return seen.are_known ? std::vector<Finding>() : seen.findings;
+  }
+  const std::vector<Scan> chosen = samples.some_scans(kMergedScans);
+  if (chosen.size() < kMergedScans) return {};
+  const auto origins = registration::find_merged_origins(chosen);
+  if (!origins) return {};
+  return {{.where = samples.all_frames(),
+           .what = "scan lines show two sensors whose clouds are merged, at (" +
+                   place_text((*origins)[0]) + ") and (" + place_text((*origins)[1]) + ") m"}};
 }
 
 }  // namespace
@@ -54,7 +160,11 @@ std::vector<Check> origin_checks() {
   return {{"beams-start-elsewhere", "points are in the frame of a vehicle, not of the sensor",
            "points whose origin is the sensor, where the beams start",
            "Say --sensor-origin with the position of the sensor in the frame of the points.",
-           look_for_ray_origin, Consequence::kRefused}};
+           look_for_ray_origin, Consequence::kRefused},
+          {"merged-sensors", "clouds of two sensors are merged, so rays start at the wrong place",
+           "a cloud for each sensor, or a field 'lidar_id' that names the sensor of each point",
+           "Write the clouds before they are merged, or with such a field.", look_for_merged,
+           Consequence::kWarned}};
 }
 
 }  // namespace raymoval::inspection

@@ -38,11 +38,11 @@ std::vector<Check> skew_checks();
 std::vector<Check> world_checks();
 std::vector<Check> reach_checks();
 std::vector<Check> recording_checks();
-/// The check of this name. @throws InternalError if there is none
-const Check& check_named(const std::string& name);
-
 std::vector<Check> origin_checks();
 std::vector<Check> fit_checks();
+
+/// The check of this name. @throws InternalError if there is none
+const Check& check_named(const std::string& name);
 
 /// "hdl64e; the scans show 64 beams, 0.173 deg by 0.427 deg, ..."; "estimated: 64 beams, ...".
 std::string sensor_text(const Samples& samples);
