@@ -48,7 +48,7 @@ std::string format_name(const OutputPath& output, const CleanPaths& paths,
   return paths.tiled ? "tile" + writing.tile_extension : output.path.string();
 }
 
-/// @throws UsageError if a confidence is asked for that no output holds
+/// @throws UsageError if the confidence is requested but no output can hold it
 void check_confidence(const std::vector<OutputPath>& outputs, const CleanWriting& writing) {
   if (!writing.confidence || std::any_of(outputs.begin(), outputs.end(), is_map)) return;
   throw UsageError(
