@@ -52,7 +52,7 @@ struct CleanPaths {
   }
 };
 
-/// All files that a sequence is read from, as far as they are recorded.
+/// All known files that a sequence is read from.
 std::vector<std::filesystem::path> files_of(const Sequence& sequence);
 
 /// Name of the record in a folder of tiles or scans, which lists the folder's files; empty for

@@ -144,7 +144,8 @@ void ScoredSequence::open_protocols() {
   const auto open = [&](OpenedProtocol& opened) {
     if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
   };
-  // If several threads open the protocols, each first opens those that no other thread opens.
+  // If several threads open the protocols, each thread first opens protocols that no other thread
+  // opens.
   for (OpenedProtocol& opened : protocols_) {
     const std::unique_lock lock(*opened.making, std::try_to_lock);
     if (lock.owns_lock()) open(opened);

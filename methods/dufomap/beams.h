@@ -83,7 +83,7 @@ using ScanVoids = std::vector<std::pair<VoxelIndex, VoidBits>>;
 /// @param inflation d_p, voxels, at most a block's side
 void find_voids(const ScanGrid& grid, int inflation, ScanVoids& voids);
 
-/// Step 5: the voids of all scans so far, 8 KiB a block of 32 x 32 x 64 voxels.
+/// Step 5: the voids of all scans so far, 8 KiB per block of 32 x 32 x 64 voxels.
 class VoidMap {
  public:
   void add(const ScanVoids& voids);

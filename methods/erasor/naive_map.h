@@ -44,7 +44,7 @@ class NaiveMap {
     VoxelNumber begin = 0, end = 0;
   };
 
-  /// @param keys a voxel each, none twice
+  /// @param keys one per voxel, without duplicates
   /// @param points of the voxels, world frame, metres
   NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points);
 

@@ -36,7 +36,7 @@ struct Parameters {
 /// sub-voxels (0.1 m) keep one point each, with its scan and a level. Per scan:
 ///  1. Scan map: the points in range in voxels.
 ///  2. Scan removal: points in free space are conservative, and levels grow around them in the
-///     scan. Free space that is hit in several consecutive scans is no longer free.
+///     scan. Free space that several scans hit without a pass in between is no longer free.
 ///  3. Raycast enhancement: ends of rays without a return, where a hole of the depth image is open
 ///     to the top.
 ///  4. Free space: the passes of rays through voxels are counted. A voxel is free if it and its

@@ -165,7 +165,7 @@ class SubVoxels {
   SubVoxel& at(int place);
   [[nodiscard]] std::span<SubVoxel> all() { return {cells_.get(), count()}; }
   [[nodiscard]] std::span<const SubVoxel> all() const { return {cells_.get(), count()}; }
-  /// The places of `all`, a bit each.
+  /// The places of `all`, one bit each.
   [[nodiscard]] std::uint64_t places() const { return places_; }
   [[nodiscard]] bool holds(std::size_t scan) const;
 
