@@ -62,7 +62,7 @@ class SequenceRuns {
   void run_job(SharedSequence& shared, CellIndex index);
   /// @return null if there is nothing to do
   std::shared_ptr<ScoredSequence> open_shared(SharedSequence& shared, std::size_t sequence);
-  /// The pose fit of the same data in run.json; no value if it was not measured.
+  /// The pose fit of the same data in run.json. @return no value if it was not measured
   [[nodiscard]] std::optional<PoseFitRecord> known_pose_fit(const std::string& sequence,
                                                             const std::string& fingerprint);
   /// Puts the fingerprint into run.json. @return false if the data cannot be read
