@@ -42,7 +42,7 @@ MapContent content_of(const OutputPath& output) {
   return {};
 }
 
-/// What decides about the format of a map's file or files.
+/// The text that determines the format of a map's file or files.
 std::string format_name(const OutputPath& output, const CleanPaths& paths,
                         const CleanWriting& writing) {
   return paths.tiled ? "tile" + writing.tile_extension : output.path.string();

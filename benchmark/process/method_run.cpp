@@ -80,7 +80,7 @@ std::optional<OnlineRule> online_rule(const MethodTask& task) {
   return OnlineRule{task.request->name, seconds != nullptr ? *seconds : 0.0, task.options.threads};
 }
 
-/// Where an answer's pieces are kept, one for each scan.
+/// The store of an answer's pieces, one for each scan.
 ScanSpool spool_of(const MethodTask& task, const char* what) {
   const std::size_t scans = task.sequence->scans->size();
   return task.spool_beside.empty() ? ScanSpool(scans) : ScanSpool(scans, task.spool_beside, what);

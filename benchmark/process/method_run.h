@@ -36,8 +36,8 @@ struct MethodTask {
   /// Where a child process opens the sequence. If it is null, the method runs in this process.
   const SequenceRequest* place = nullptr;
   ChildLimits limits = {};  ///< Of the child process.
-  /// A path beside which the answer is kept in files without names. If it is empty, the answer is
-  /// kept in memory.
+  /// A path beside which the answer is kept in unnamed files. If it is empty, the answer is kept in
+  /// memory.
   std::filesystem::path spool_beside = {};
 };
 

@@ -164,8 +164,8 @@ std::string listed(const std::vector<std::string>& names, const std::string& nou
   return join({names.begin(), names.end() - 1}) + " and " + names.back();
 }
 
-/// What was run: "simulated-quick: raymoval:online and raymoval:offline on town and crossing". The
-/// name of a run without a suite file is left out.
+/// The title of a run: "simulated-quick: raymoval:online and raymoval:offline on town and
+/// crossing". The name of a run without a suite file is left out.
 std::string title_of(const RunResults& results) {
   std::vector<std::string> methods;
   for (const std::string& method : results.methods) {

@@ -29,10 +29,10 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   return VoxelKeyHash{}(hash * 0x9E3779B97F4A7C15ULL + value);
 }
 
-/// The share of the points that may be wrongly classified ones.
+/// The largest share of wrongly classified points.
 constexpr double kErrorShare = 0.6;
 
-/// The share of the points that may be removed ones.
+/// The largest share of removed points.
 constexpr double kRemovedShare = 0.4;
 
 /// SemanticKITTI's ids for kept and removed points.

@@ -28,8 +28,8 @@ struct ShownPoint {
 };
 
 /// Keeps points up to a limit. If more come, it divides space into cells and keeps the first point
-/// of each cell; the cells grow until the limit holds. The same points in the same order always
-/// leave the same ones.
+/// of each cell; the cells grow until the limit holds. The result depends only on the points and
+/// their order.
 class ReportPoints {
  public:
   /// @param verdicts the number of bytes for each point

@@ -291,7 +291,7 @@ void SequenceRuns::fail_repeat(CellIndex index, int round, CellStatus status,
   summary_.failures.push_back(cell.title() + ": " + cell.reason);
 }
 
-/// Shows on the live line what is running.
+/// Shows a running cell on the live line.
 void SequenceRuns::show_running(CellIndex index, const std::string& round) {
   Progress* progress = suite_.options().progress;
   if (progress == nullptr) return;

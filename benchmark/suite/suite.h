@@ -25,7 +25,7 @@ SequenceRequest absolute_place(const SequenceRequest& place);
 /// A method of a suite. Its cells have its `name`.
 struct MethodRequest {
   /// Unique in the suite: "raymoval:online", "raymoval:online*" if a parameter differs from the
-  /// variant, or what "as" says.
+  /// variant, or the value of "as".
   std::string name;
   ConfiguredMethod method;
   std::string sweep_of = {};  ///< Name without the swept values, if this is one point of a sweep.
@@ -38,7 +38,7 @@ struct MethodRequest {
 
 /// A protocol of a suite with its effective options.
 struct ProtocolRequest {
-  std::string name;      ///< Unique in the suite: "erasor", or what "as" says.
+  std::string name;      ///< Unique in the suite: "erasor", or the value of "as".
   std::string protocol;  ///< Name for `make_protocol`.
   Configuration options;
 };
@@ -47,7 +47,7 @@ struct ProtocolRequest {
 /// without a name.
 inline constexpr const char* kUnnamedSuite = "run";
 
-/// What one run does: every sequence with every method, scored by every protocol.
+/// The work of one run: every sequence with every method, scored by every protocol.
 struct Suite {
   std::string name = kUnnamedSuite;
   std::vector<SequenceRequest> sequences;
@@ -73,7 +73,7 @@ Setting parse_setting(const std::string& text);
 
 /// Reads a suite file (JSON with comments). Relative paths are looked up beside the suite file
 /// first, then from the working folder; "{data}" at the start of a path is replaced by `data`.
-/// @throws ConfigurationError naming the file, the key and the nearest legal one; UsageError if the
+/// @throws ConfigurationError naming the file, the key and the nearest valid key; UsageError if the
 /// file needs `data` and there is none, or the reverse
 Suite read_suite(const std::filesystem::path& path, const MethodRegistry& registry,
                  const std::string& data = "");

@@ -23,7 +23,7 @@ struct Manifest {
 };
 
 /// Reads a manifest (JSON with comments).
-/// @throws ConfigurationError that names the file, the key, what is expected and the nearest legal
+/// @throws ConfigurationError that names the file, the key, what is expected and the nearest valid
 /// key
 Manifest read_manifest(const std::filesystem::path& path);
 

@@ -105,7 +105,7 @@ class LineWalk {
   VoxelIndex place_;  ///< Of the voxel in its block.
 };
 
-/// Marks what a scan observes.
+/// Marks the voxels that a scan observes.
 class Observation {
  public:
   Observation(const Lattice& lattice, const Eigen::Vector3d& sensor, double max_range,

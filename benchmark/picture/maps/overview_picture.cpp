@@ -58,7 +58,7 @@ struct ObliqueCamera {
   }
 };
 
-/// Draws points so that near ones hide far ones. Of equally near ones the first stays.
+/// Draws points so that near ones hide far ones. Of equally near points the first is kept.
 class ObliqueRaster {
  public:
   explicit ObliqueRaster(const ObliqueCamera& camera)

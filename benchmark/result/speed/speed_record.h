@@ -25,7 +25,8 @@ struct CellSpeed {
   SpeedFigure score;   ///< All protocols. Data that methods share is made before.
 };
 
-/// What `scripts/benchmark.sh` writes to speed.json: whole cells of every method on one scene.
+/// The content of speed.json, written by `scripts/benchmark.sh`: whole cells of every method on one
+/// scene.
 struct SpeedRecord {
   std::string scene = {};  ///< As for --sequence.
   int scans = 0;

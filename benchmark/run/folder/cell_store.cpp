@@ -49,7 +49,7 @@ bool is_cell_file(const path& name) {
          (name.string().starts_with("timing-") && name.extension() == ".json");
 }
 
-/// Removes what a killed run left in a cell's folder: files with names that only runs give.
+/// Removes files of a killed run from a cell's folder, by names that only runs use.
 void sweep_cell(const path& folder) {
   for (const path& entry : entries_of(folder)) {
     const path name = name_of_part(entry);

@@ -42,7 +42,7 @@ class KeptRun {
   KeptRun(const KeptRun&) = delete;
   KeptRun& operator=(const KeptRun&) = delete;
 
-  /// What results.json holds.
+  /// The content of results.json.
   [[nodiscard]] const ResultsRecord& record() const { return record_; }
   /// The part that tables show.
   [[nodiscard]] const RunResults& results() const { return results_; }
