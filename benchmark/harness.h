@@ -18,7 +18,7 @@ namespace raymoval {
 /// `run` and `clean` start the program itself again for each method, with a command that --help
 /// does not show. So `main` must not do or print anything before this call.
 /// Help shows the name by which the program was started.
-/// @param methods the methods that the program knows; it has to live as long as the call
+/// @param methods the methods of the program; must outlive the call
 /// @return the exit code, see `ExitCode`
 int run_command_line(int argc, const char* const* argv, const MethodRegistry& methods);
 

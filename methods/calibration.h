@@ -9,20 +9,20 @@ namespace raymoval {
 
 /// Converts the evidence that a method gives for points (`EvidenceSink`) to a confidence: the share
 /// of points with this evidence that move. The curve is fitted to labelled sequences of equal
-/// weight by isotonic regression. Its groups are then joined to 14 knots, each time the two whose
-/// union lowers the likelihood least. Using the curve needs no labels.
+/// weight by isotonic regression. Its groups are then joined to 14 knots: each step joins the two
+/// groups whose union lowers the likelihood least. Using the curve needs no labels.
 struct Calibration {
   struct Knot {
     float evidence = 0.0F;
     float confidence = 0.0F;
   };
-  std::string sentence;     ///< What the evidence is made of.
-  std::vector<Knot> curve;  ///< Of ascending evidence and confidence. None: there is no confidence.
+  std::string sentence;     ///< Description of the evidence.
+  std::vector<Knot> curve;  ///< Ascending in evidence and confidence. Empty: no confidence.
 
   [[nodiscard]] bool empty() const { return curve.empty(); }
 
-  /// The confidence that a point of this evidence moves: on straight lines between the knots, and
-  /// that of the first or the last one beyond. There has to be a knot.
+  /// The confidence that a point with this evidence moves: linear between the knots, constant
+  /// beyond the first and the last one. There must be a knot.
   [[nodiscard]] float confidence(float evidence) const {
     const auto above =
         std::upper_bound(curve.begin(), curve.end(), evidence,

@@ -16,25 +16,25 @@ namespace raymoval {
 struct MethodVariant {
   std::string name;
   std::string sentence = "";
-  bool online = false;  ///< Scan t is answered from scans 0 .. t, or up to its `delay` later.
+  bool online = false;           ///< The mask of scan t uses scans up to t, or up to a delay later.
   Configuration overrides = {};  ///< Values that differ from the method's defaults.
   bool is_available = true;  ///< False if this build lacks a library for it, as `sentence` says.
 };
 
-/// Everything the rest of the program knows about a method.
+/// The description of a method for the rest of the program.
 struct MethodEntry {
   std::string name;
   std::string sentence;
-  std::string source;              ///< The paper, or where else the method comes from.
+  std::string source;              ///< The paper, or another source of the method.
   std::string bibtex = {};         ///< Of the paper; empty if there is none.
-  std::string version = "1";       ///< It is raised whenever answers may change.
+  std::string version = "1";       ///< Raised whenever results may change.
   std::vector<std::string> notes;  ///< Decisions and deviations from the source, a sentence each.
   std::vector<ParameterSpec> parameters;
-  /// The parameters that `raymoval describe` shows unless all are asked for; empty: all.
+  /// The parameters that `raymoval describe` shows by default; empty: all.
   std::vector<std::string> main_parameters = {};
-  std::string advice = {};  ///< What to change if too much or too little is removed, as sentences.
-  std::vector<MethodVariant> variants;  ///< The first is what the bare name means.
-  bool needs_truth = false;             ///< True for a control that is given the labels (`oracle`).
+  std::string advice = {};              ///< Sentences on too much or too little removal.
+  std::vector<MethodVariant> variants;  ///< The first is the default.
+  bool needs_truth = false;             ///< True for a control that uses the labels (`oracle`).
   Calibration confidence = {};  ///< Empty: the method gives no evidence (see `EvidenceSink`).
   std::string manifest = {};    ///< Path of the manifest of an external method.
   std::function<std::unique_ptr<Remover>(const Configuration&)> make;
@@ -50,7 +50,7 @@ struct MethodEntry {
   }
 };
 
-/// A method with its variant and every parameter's value: what a result is traced to.
+/// A method with its variant and every parameter's value: the origin of a result.
 struct ConfiguredMethod {
   const MethodEntry* entry = nullptr;
   MethodVariant variant;
@@ -64,7 +64,7 @@ struct ConfiguredMethod {
     return entry->manifest.empty() ? full_name() : "external:" + entry->manifest;
   }
   [[nodiscard]] std::unique_ptr<Remover> make() const { return entry->make(configuration); }
-  /// The parameters that have another value than in the variant, with the variant's value.
+  /// The parameters that differ from the variant, with the variant's value.
   [[nodiscard]] Configuration changed_from() const;
 };
 

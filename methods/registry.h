@@ -22,7 +22,7 @@ class MethodRegistry {
   }
   /// @throws UsageError that suggests the nearest name
   [[nodiscard]] const MethodEntry& find(const std::string& name) const;
-  /// The method that "raymoval", "raymoval:online" or "external:PATH/manifest.json" names, with its
+  /// The method named "raymoval", "raymoval:online" or "external:PATH/manifest.json", with its
   /// variant's values.
   /// @throws UsageError that suggests the nearest name; ConfigurationError or DataError for a
   /// manifest

@@ -16,7 +16,7 @@
 
 namespace raymoval {
 
-/// Takes a method's answer: one mask per scan, each scan exactly once, in any order, from any
+/// Receives a method's result: one mask per scan, each scan exactly once, in any order, from any
 /// thread. A wrong size, an unknown scan or a second mask for a scan is a MethodError.
 class RemovalSink {
  public:
@@ -26,39 +26,40 @@ class RemovalSink {
   virtual void accept(std::size_t scan, const Mask& mask) = 0;
 };
 
-/// Takes why a method removed or kept each point, where it can say: a code per point, and a
-/// sentence for each code. It is shown to people who look at single points and changes no score.
+/// Receives the reasons for which a method removed or kept each point, if it has any: a code per
+/// point, and a sentence for each code. They are shown for single points and have no effect on
+/// scores.
 class ReasonSink {
  public:
   virtual ~ReasonSink() = default;
-  /// Says what the codes mean. To be called once, before `accept`.
+  /// Sets the meaning of the codes. Must be called once, before `accept`.
   /// @param sentences of the codes 0, 1, ..., at most 127
   virtual void explain(const std::vector<std::string>& sentences) = 0;
-  /// Takes the reasons for a scan's mask, for each scan at most once, from any thread.
+  /// Receives the reasons for a scan's mask, for each scan at most once, from any thread.
   /// @param codes as long as the scan has points
   virtual void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) = 0;
 };
 
-/// Takes what speaks for it that each point belongs to something that moves, in a measure of the
-/// method's own. It changes no mask and no score. `Calibration` makes a confidence of it.
+/// Receives the evidence that each point moves, in a measure that each method defines. It has no
+/// effect on masks and scores. `Calibration` converts it to a confidence.
 class EvidenceSink {
  public:
   virtual ~EvidenceSink() = default;
   /// For each scan once, in any order, from any thread.
-  /// @param evidence from 0 to 1, the more the likelier; as long as the scan has points
+  /// @param evidence from 0 to 1, rising with the likelihood of motion; one per point of the scan
   virtual void accept(std::size_t scan, std::span<const float> evidence) = 0;
 };
 
-/// What a run gives a method besides its data. Everything optional may be null.
+/// The context of a method's run. Pointers may be null.
 struct RunContext {
-  int threads = 1;  ///< The method uses at most so many; the answer never depends on it.
+  int threads = 1;  ///< The most threads that the method may use; no effect on the result.
   Progress* progress = nullptr;
   StageTimes* times = nullptr;
   const std::atomic<bool>* cancel = nullptr;
-  ReasonSink* reasons = nullptr;  ///< For a method that can give reasons; most cannot and need not.
+  ReasonSink* reasons = nullptr;     ///< For methods that give reasons; optional.
   EvidenceSink* evidence = nullptr;  ///< For a method whose entry has a `Calibration`.
 
-  /// @throws Cancelled if the run was asked to stop. Call it once a scan.
+  /// @throws Cancelled if the run was cancelled. Call it once per scan.
   void check_cancelled() const {
     if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled();
   }
@@ -72,13 +73,14 @@ struct RunContext {
 
 /// A way to find the points of moving objects in a sequence of posed scans.
 ///
-/// The same input gives the same answer whatever the number of threads. An online method answers
-/// for scan t from scans 0 .. t, or until a delay later; an offline one sees all (its entry tells).
+/// The same input gives the same result for any number of threads. An online method computes the
+/// mask of scan t from scans 0 .. t, or up to a delay later; an offline method uses all scans (see
+/// its entry).
 class Remover {
  public:
   virtual ~Remover() = default;
   /// Flags the points to remove, scan by scan, into `sink`.
-  /// @throws MethodError or DataError; Cancelled if `context` asks to stop.
+  /// @throws MethodError or DataError; Cancelled if the run was cancelled.
   virtual void run(const ScanSource& scans, RemovalSink& sink, const RunContext& context) = 0;
 };
 

@@ -42,13 +42,13 @@ MapContent content_of(const OutputPath& output) {
   return {};
 }
 
-/// What decides about the format of a map's file or files.
+/// The text that determines the format of a map's file or files.
 std::string format_name(const OutputPath& output, const CleanPaths& paths,
                         const CleanWriting& writing) {
   return paths.tiled ? "tile" + writing.tile_extension : output.path.string();
 }
 
-/// @throws UsageError if a confidence is asked for that no output holds
+/// @throws UsageError if the confidence is requested but no output can hold it
 void check_confidence(const std::vector<OutputPath>& outputs, const CleanWriting& writing) {
   if (!writing.confidence || std::any_of(outputs.begin(), outputs.end(), is_map)) return;
   throw UsageError(

@@ -20,37 +20,37 @@ struct CleanWriting {
   double tile_size = 0.0;   ///< Metres; for maps that are folders of tiles.
   std::string tile_extension = ".pcd";
   std::optional<double> intensity_scale = std::nullopt;  ///< See `RecordWriting`.
-  std::string method = "clean";                          ///< What pictures and pages call it.
-  bool confidence = false;  ///< Whether maps have the field of `layout_with_confidence`.
+  std::string method = "clean";  ///< The method's name in pictures and pages.
+  bool confidence = false;       ///< Whether maps have the field of `layout_with_confidence`.
 };
 
-/// The outputs of `raymoval clean`. All are opened at the beginning, so that a place where nothing
-/// can be written, and what a format cannot hold, is found before the work. They get their names
-/// together at the end: until then nothing is replaced, and an error or an interruption leaves
-/// nothing behind.
+/// The outputs of `raymoval clean`. The constructor opens all of them, so that a path that cannot
+/// be written and a field that a format cannot hold are found before the work. `commit` renames all
+/// outputs together: until then no file is replaced, and an error or an interruption leaves no file
+/// behind.
 class CleanOutputs {
  public:
   /// @param sequence must outlive this object
-  /// @throws UsageError if a format cannot hold what it is to hold; DataError if scans have
-  ///   different fields, or a place cannot be written; Cancelled
+  /// @throws UsageError if a format cannot hold a required field; DataError if scans have different
+  ///   fields, or a path cannot be written; Cancelled
   CleanOutputs(const CleanPaths& paths, const CleanWriting& writing, const Sequence& sequence,
                Progress& progress, const std::atomic<bool>& cancel);
 
   /// Scans come in order. @param mask 1 = removed, 0 = kept, `kLeftOutMask` = in no output
   /// @param confidence of each point in steps (`kConfidenceSteps`), if it is written
   void add(const Scan& scan, const Mask& mask, const std::string& confidence = {});
-  /// Ends all outputs, which may find the disk full, and then gives them their names.
+  /// Finishes all outputs, which may fail on a full disk, and then renames them.
   void commit();
 
   /// Points of the first map after `commit`, if there is a map.
   [[nodiscard]] std::optional<std::uint64_t> map_points() const;
-  /// What a user should know before the work: fields that a format cannot hold, coordinates that
-  /// became float64.
+  /// Notes for the user before the work: fields that a format cannot hold, coordinates that become
+  /// float64.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-  /// What a user should know of what was written, after `commit`.
+  /// Notes for the user on the written files, after `commit`.
   [[nodiscard]] std::vector<std::string> results() const;
-  /// Whether the folder of --scans has poses of its own, so that those that the user gave belong to
-  /// it no more.
+  /// Whether the folder of --scans gets its own pose file, so that the poses that the user gave no
+  /// longer apply to it.
   [[nodiscard]] bool has_own_poses() const { return has_own_poses_; }
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The one way to write a path, so that two can be compared.
+/// The normal form of a path, so that two paths can be compared.
 fs::path plain(const fs::path& path) {
   std::error_code error;
   fs::path whole = fs::absolute(path, error);
@@ -29,7 +29,7 @@ fs::path plain(const fs::path& path) {
   return without_slash(whole);
 }
 
-/// Whether `path` is `folder` or stands in it, however deep. Both as `plain` gives them.
+/// Whether `path` is `folder` or is within it at any depth. Both paths are results of `plain`.
 bool is_within(const fs::path& path, const fs::path& folder) {
   const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return end == folder.end();
@@ -50,7 +50,8 @@ void check_file(const OutputPath& output, bool overwrite) {
   check_output_file(path, overwrite, path.string());
 }
 
-/// The files in a folder of ours, relative to it; nothing if it has no record that can be read.
+/// The files that the record of an output folder lists, relative to it; nothing if it has no
+/// readable record.
 std::optional<std::set<std::string>> recorded_files(const fs::path& folder, OutputKind kind) {
   return if_whole([&] {
     std::set<std::string> files = {record_name(kind)};
@@ -69,7 +70,7 @@ std::optional<std::set<std::string>> recorded_files(const fs::path& folder, Outp
   });
 }
 
-/// Whether an earlier run wrote this entry, below a folder of its own.
+/// Whether an earlier run wrote this entry of its output folder.
 bool is_ours(const fs::path& entry, const fs::path& folder, OutputKind kind,
              const std::optional<std::set<std::string>>& recorded) {
   if (kind == OutputKind::kLabels) return entry.extension() == ".label" && is_file(entry);

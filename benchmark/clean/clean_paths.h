@@ -13,7 +13,7 @@
 
 namespace raymoval {
 
-/// What stands at an output's path when it is written.
+/// The kind of file or folder at an output's path.
 enum class OutputKind {
   kCloud,    ///< A file of points, whose format is that of its extension.
   kPicture,  ///< A .png file.
@@ -25,18 +25,18 @@ enum class OutputKind {
 
 bool is_folder_output(OutputKind kind);
 
-/// One output, and the option that asked for it.
+/// One output and its option.
 struct OutputPath {
   std::string option;
   std::filesystem::path path;
   OutputKind kind;
 };
 
-/// Everything that `raymoval clean` writes, and where. What is empty is not written.
+/// The paths of all outputs of `raymoval clean`. An output with an empty path is not written.
 struct CleanPaths {
   std::filesystem::path map = {};       ///< Cleaned map.
   std::filesystem::path removed = {};   ///< Removed points as a map.
-  std::filesystem::path labelled = {};  ///< All points with a field that says what became of them.
+  std::filesystem::path labelled = {};  ///< All points, labelled as kept or removed.
   std::filesystem::path labels = {};    ///< Folder for a label file for each scan.
   std::filesystem::path scans = {};     ///< Folder of scans without removed points.
   std::filesystem::path page = {};      ///< HTML page with a 3-D view.
@@ -44,30 +44,30 @@ struct CleanPaths {
   bool tiled = false;                   ///< Whether maps are folders of tiles.
   bool overwrite = false;               ///< Whether outputs may exist already.
 
-  /// Those that are written, the most important first.
+  /// The outputs with a path, the most important first.
   [[nodiscard]] std::vector<OutputPath> all() const;
-  /// The first of the maps that is written; empty if none is.
+  /// The first map with a path; empty if there is none.
   [[nodiscard]] const std::filesystem::path& first_map() const {
     return !map.empty() ? map : !removed.empty() ? removed : labelled;
   }
 };
 
-/// All files that a sequence is read from, as far as it says so.
+/// All known files that a sequence is read from.
 std::vector<std::filesystem::path> files_of(const Sequence& sequence);
 
-/// The record that stands in a folder of tiles or of scans and lists its files; else empty. Only
-/// such a folder is replaced.
+/// Name of the record in a folder of tiles or scans, which lists the folder's files; empty for
+/// other kinds. Only a folder with such a record is replaced.
 const char* record_name(OutputKind kind);
 
-/// Refuses paths that could not be written after the work is done, or that would destroy something:
-/// unknown extensions, missing folders, the same place twice or one within another, and what exists
-/// already. @throws UsageError that names the path and the remedy
+/// Refuses paths that could not be written after the work, or that would destroy something: unknown
+/// extensions, missing folders, the same path twice or one within another, and existing files.
+/// @throws UsageError that names the path and the remedy
 void check_paths(const CleanPaths& paths);
 
-/// Refuses to write over what `sequence` is read from, or among it: over pose files, calibration,
-/// labels and scans, whatever links lead there; maps beside scans, where they would be taken for
-/// scans; folders around inputs.
-/// @param inputs files that were read besides those of the sequence
+/// Refuses outputs that would overwrite the inputs of `sequence` (pose files, calibration, labels,
+/// scans; links are followed), maps beside scans, where a map would be read as a scan, and folders
+/// that contain inputs.
+/// @param inputs further files that were read
 /// @throws UsageError
 void check_apart_from(const Sequence& sequence, const CleanPaths& paths,
                       const std::vector<std::filesystem::path>& inputs = {});

@@ -25,7 +25,7 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
   return found;
 }
 
-/// Removes what a child leaves behind that is ended.
+/// Removes the unfinished files of a child process that was ended.
 class LeftOvers {
  public:
   explicit LeftOvers(const CleanPaths& paths)
@@ -34,7 +34,7 @@ class LeftOvers {
     try {
       remove();
     } catch (const std::exception&) {
-      // What cannot be found now stays under a name that tells what it is.
+      // An unfinished file that cannot be found now remains; its name marks it as unfinished.
     }
   }
   LeftOvers(const LeftOvers&) = delete;
@@ -42,14 +42,14 @@ class LeftOvers {
 
  private:
   void remove() const {
-    // The child was ended between two renames: what was there has another name and is the user's.
+    // The child was ended between two renames: the user's earlier output has another name now.
     if (present() != had_) return;
     std::error_code ignored;
     for (const fs::path& path : unfinished(paths_)) {
       if (before_.count(path) == 0) fs::remove_all(path, ignored);
     }
   }
-  /// The outputs that are there, for a folder may be away under another name.
+  /// The outputs that exist: during a replacement a folder has another name.
   [[nodiscard]] std::vector<fs::path> present() const {
     std::vector<fs::path> there;
     for (const OutputPath& output : paths_.all()) {

@@ -10,11 +10,11 @@
 
 namespace raymoval {
 
-/// Runs this program as a child process that cleans, and watches its memory. However the child
-/// ends, nothing unfinished is left of `paths`.
+/// Runs this program as a child process that cleans, and watches its memory. No unfinished file of
+/// `paths` is left, however the child ends.
 /// @param arguments of the child, without the program's name; it prints where this process does
-/// @param memory_limit_mib of the child and all that it starts; 0 means that none is known
-/// @param cancel the child is ended when this becomes true
+/// @param memory_limit_mib of the child and its descendants; 0: no known limit
+/// @param cancel ends the child when it becomes true
 /// @return the exit code of the child, which has printed the reason itself
 /// @throws DataError if it was ended for its memory, MethodError if it crashed, Cancelled
 ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,

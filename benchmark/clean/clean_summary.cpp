@@ -13,7 +13,7 @@
 namespace raymoval {
 namespace {
 
-/// A map in which less than this share was removed has hardly anything that moves, or has it still.
+/// If a smaller share of the points is removed, hardly anything moves, or moving points are left.
 constexpr double kFew = 0.001;
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
@@ -66,7 +66,7 @@ void RangeShares::add(const Scan& scan, const Mask& mask) {
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (mask[i] > 1) continue;
     const float range = scan.points[i].norm();
-    // Without a branch: ranges of neighbours differ too much to be foretold.
+    // Without a branch: ranges of neighbouring points differ too much for branch prediction.
     std::size_t band = 0;
     for (std::size_t b = 1; b < kBands.size(); ++b) {
       band += range >= static_cast<float>(kBands[b]) ? 1 : 0;

@@ -12,20 +12,20 @@
 
 namespace raymoval {
 
-/// Looks for mistakes in the data before a map is made of it, as `raymoval inspect` does, and says
-/// on standard error what may make the map worse (see `Consequence`).
-/// @param path what the user called the sequence, for the message
-/// @param force goes on where the map would be wrong, and says so
-/// @param context threads, progress and what gives the check up
-/// @return the report, whose findings are those in spite of which the map is made
-/// @throws DataError with the findings for which it would be wrong; Cancelled
+/// Checks the data for mistakes before a map is made of it, as `raymoval inspect` does. Prints on
+/// standard error the findings that may make the map worse (see `Consequence`).
+/// @param path the sequence as the user wrote it, for messages
+/// @param force continues, with a warning, where the map would be wrong
+/// @param context threads, progress and cancellation
+/// @return the report with the findings that do not stop the map
+/// @throws DataError with the findings that would make the map wrong; Cancelled
 InspectionReport check_data(const Sequence& sequence, const std::string& path, bool force,
                             const OpenContext& context);
 
 /// Warns on standard error if no point was removed, or more than half of them.
 void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path);
 
-/// Counts what was removed by distance from the sensor.
+/// Counts removed points by distance from the sensor.
 class RangeShares {
  public:
   /// Where the bands of distance begin, metres; the last one has no end.
@@ -43,9 +43,9 @@ class RangeShares {
   std::array<Count, kBands.size()> counts_;
 };
 
-/// What to try if the map does not look right, in whole sentences.
-/// @param warned findings about the data in spite of which it was cleaned
-/// @param is_seen whether there is a picture or a page of it already
+/// Suggestions, in sentences, for a map that does not look right.
+/// @param warned findings about the data that did not stop the cleaning
+/// @param is_seen whether there is already a picture or a page of the map
 std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
                                      const std::string& path, const std::string& method,
                                      const std::vector<Finding>& warned, bool is_seen);

@@ -12,15 +12,15 @@
 
 namespace raymoval {
 
-/// A map that some program has cleaned. The points are finite and in the world frame, relative to
-/// the origin of scores (see `lattice_origin`). They are sorted, so that their order in the file
-/// cannot matter.
+/// A map that a program has cleaned. The points are finite and in the world frame, relative to the
+/// origin of scores (see `lattice_origin`). They are sorted, so that their order in the file has no
+/// effect.
 struct CleanedCloud {
   std::vector<Eigen::Vector3f> points;
   std::size_t stored = 0;      ///< Points in the file.
-  std::size_t non_finite = 0;  ///< Those with a coordinate that is no finite number; left out.
+  std::size_t non_finite = 0;  ///< Points with a coordinate that is not finite; left out.
 
-  /// Sentences that a reader of its scores has to know; none if all is well.
+  /// Warnings, in sentences, for a reader of the scores.
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
@@ -31,8 +31,8 @@ CleanedCloud cleaned_cloud(std::vector<Eigen::Vector3f> points);
 CleanedCloud read_cleaned_cloud(const std::filesystem::path& path,
                                 const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// The cloud of all points that do not move according to the labels of the sequence. A method
-/// without a single mistake would give it.
+/// The cloud of all points that do not move according to the labels of the sequence. It is the
+/// result of a perfect method.
 /// @param voxel_size in metres; 0 keeps every point
 CleanedCloud oracle_cloud(const Sequence& sequence, double voxel_size, Progress* progress);
 

@@ -18,7 +18,7 @@
 
 namespace raymoval {
 
-/// A command of the program: its options, and what it does once they are read.
+/// A command of the program: its options, and the function that runs it.
 struct Command {
   std::string name;
   std::function<ExitCode()> run;
@@ -39,22 +39,22 @@ Command add_clean_command(CommandParser& program);
 Command add_simulate_command(CommandParser& program);
 Command add_inspect_command(CommandParser& program);
 Command add_report_command(CommandParser& program);
-/// `program` has to live as long as this command.
+/// `program` must outlive this command.
 Command add_help_command(CommandParser& program);
 
-/// What the program was started with, without its own name.
+/// The arguments of the program, without its own name.
 const std::vector<std::string>& program_arguments();
 
-/// The methods that this program knows, see `run_command_line`.
+/// The registry that was passed to `run_command_line`.
 const MethodRegistry& program_methods();
 
-/// Options that say how sequences are read, as texts of the command line.
+/// Options for reading sequences, as texts of the command line.
 struct SequenceFlags {
   std::map<std::string, std::string> texts;  ///< By the option's name, such as "pose-format".
   std::map<std::string, bool> flags;
 
   void add_to(CommandOptions& options);
-  /// The sequence that a command is about, which may be given with --sequence or without it.
+  /// Adds the sequence of a command, which may be given with --sequence or without it.
   static void add_place_to(CommandOptions& options, std::string& place);
   /// @throws UsageError for an ill-formed value
   [[nodiscard]] SequenceOptions options() const;
@@ -73,16 +73,16 @@ struct SequenceFlags {
 /// @throws UsageError unless it is a whole number from 1 to 4096
 int parse_threads(const std::string& text);
 
-/// How progress is shown: on standard error, unless the user wants quiet.
+/// How progress is shown: on standard error, unless `quiet` is set.
 ProgressStyle progress_style(bool quiet);
 
-/// The options --threads and --quiet of a command that works for long.
+/// The options --threads and --quiet of a long-running command.
 struct WorkFlags {
   std::string threads;
   bool quiet = false;
 
   void add_to(CommandOptions& options);
-  /// As many threads as were asked for, or one for each core. @throws UsageError
+  /// The number of threads of --threads, or one for each core. @throws UsageError
   [[nodiscard]] int thread_count() const;
   [[nodiscard]] ProgressStyle style() const { return progress_style(quiet); }
 };
@@ -93,38 +93,39 @@ struct ProcessFlags {
   bool in_process = false;
 
   void add_to(CommandOptions& options);
-  /// What was given, or the usual limit of the machine. @throws UsageError
+  /// The limit that was given, or the usual limit of the machine. @throws UsageError
   [[nodiscard]] double memory_limit_mib() const;
-  /// The words of the command line with the option that makes the child do the work itself.
+  /// The arguments of the command line plus the option that makes the child do the work itself.
   [[nodiscard]] static std::vector<std::string> child_arguments(const std::string& command);
 };
 
-/// The file that a command writes besides what it prints, and --overwrite.
+/// The output file of a command that also prints, and --overwrite.
 struct OutputFlag {
   std::string option;  ///< Such as "--json".
-  std::string path;    ///< Empty if it was not asked for.
+  std::string path;    ///< Empty if it was not given.
   bool overwrite = false;
 
   /// @param names of the option, such as "-o,--output"
   void add_to(CommandOptions& options, const std::string& names, const std::string& sentence);
-  /// Called before the work. @throws UsageError if there is no folder for the file, if it is there
-  /// already and is not to be replaced, or if it is one of the records of a run
+  /// Called before the work. @throws UsageError if the file's folder is missing, if the file exists
+  /// without --overwrite, or if it is a record of a run
   void check() const;
-  /// @param inputs files that are read. @throws UsageError if the output is one of them
+  /// @param inputs files that are read
+  /// @throws UsageError if the output is one of them
   void check_is_none_of(const std::vector<std::filesystem::path>& inputs) const;
-  /// Writes the content if the file was asked for. @throws DataError
+  /// Writes the content if a file was given. @throws DataError
   void write(const std::string& content) const;
 };
 
-/// Says how a sequence was opened, unless progress is quiet, and always warns of scans that are
-/// lost.
+/// Prints how a sequence was opened, unless progress is quiet. Always warns of scans that are lost.
 void tell_opening(const Sequence& sequence, Progress& progress);
 
 /// Set to true by the first Ctrl-C, SIGTERM or SIGHUP; a second one ends the program at once. The
-/// exit code is then 128 + the number of the signal, unless all was done already.
+/// exit code is then 128 + the number of the signal, unless the work was already complete.
 const std::atomic<bool>& interrupt_flag();
 
-/// Prints to standard output, as `terminal_text`: names and reasons in it may be other people's.
+/// Prints to standard output, escaped by `terminal_text`: names and reasons may come from foreign
+/// files.
 /// @throws DataError if it cannot be written (a full disk, a closed pipe)
 void print(const std::string& text);
 

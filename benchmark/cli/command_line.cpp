@@ -27,7 +27,7 @@ std::atomic<int> interrupting_signal = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler sets them");
 
-/// What shells make of the end by a signal.
+/// The exit code that a shell reports for a process that was ended by a signal.
 constexpr int exit_code_of_signal(int signal) {
   return 128 + signal;
 }
@@ -38,13 +38,13 @@ void on_interrupt(int signal) {
   interrupting_signal.store(signal);
 }
 
-/// @param unless_ignored who started this program may want it to live on (nohup)
+/// @param unless_ignored leaves a signal ignored if the parent process ignores it (nohup)
 void listen_to(int signal, bool unless_ignored) {
   const auto before = std::signal(signal, on_interrupt);
   if (unless_ignored && before == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-/// @param name what help calls the program
+/// @param name of the program in help
 ExitCode run_program(int argc, const char* const* argv, const std::string& name) {
   CommandParser program(name + ": evaluates the removal of moving objects from LiDAR maps.", name);
   program.set_version("raymoval " RAYMOVAL_VERSION);
@@ -89,7 +89,7 @@ int write_plain(std::string_view line) {
 
 std::atomic<bool> memory_ran_out = false;
 
-/// Remembers what `end_with_words` may not be told: std::terminate often has no exception at hand.
+/// Records the lack of memory for `end_with_words`: std::terminate often has no current exception.
 [[noreturn]] void on_no_memory() {
   memory_ran_out = true;
   throw std::bad_alloc();
@@ -101,8 +101,8 @@ int show_error(const std::string& message, ExitCode code) {
   return static_cast<int>(code);
 }
 
-/// What leads here was thrown where nothing may be thrown, such as in a library that has no memory
-/// left. Destructors are not run: what is half written has no final name.
+/// Called for an exception in a place where none may be thrown, such as in a library that ran out
+/// of memory. Destructors are not run: a half-written file has no final name.
 [[noreturn]] void end_with_words() {
   try {
     if (std::current_exception()) std::rethrow_exception(std::current_exception());
@@ -118,8 +118,8 @@ int show_error(const std::string& message, ExitCode code) {
   ::_exit(static_cast<int>(ExitCode::kInternal));
 }
 
-/// A low limit of open files is often only a default, which may be raised. A program that is
-/// started from here gets the raised limit too.
+/// A low limit of open files is often only a default, which may be raised. Child processes inherit
+/// the raised limit.
 void raise_limit_of_open_files() {
   constexpr rlim_t kEnough = 1024;
   rlimit limit{};
@@ -132,7 +132,7 @@ void raise_limit_of_open_files() {
 int run_with_words(int argc, const char* const* argv, const MethodRegistry* methods) {
   std::set_new_handler(on_no_memory);
   std::set_terminate(end_with_words);
-  // A file that outgrows its limit is then an error of writing, like a full disk.
+  // A file larger than its limit is then a write error, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   raise_limit_of_open_files();
   try {
@@ -157,8 +157,8 @@ int run_with_words(int argc, const char* const* argv, const MethodRegistry* meth
   }
 }
 
-/// The exit code after a signal. What was done all the same, just before it could be stopped, is
-/// done.
+/// The exit code after a signal. A command that was complete before it could be stopped keeps its
+/// code.
 int with_code_of_signal(int code) {
   const int signal = interrupting_signal.load();
   const bool done = code == static_cast<int>(ExitCode::kDone);
@@ -177,7 +177,7 @@ const MethodRegistry& program_methods() {
 
 const std::atomic<bool>& interrupt_flag() {
   static const bool listens = [] {
-    listen_to(SIGINT, false);  // A shell lets its background jobs ignore it.
+    listen_to(SIGINT, false);  // Shells make background jobs ignore it.
     listen_to(SIGTERM, true);
     listen_to(SIGHUP, true);
     return true;

@@ -35,8 +35,8 @@ bool may_be_sequence(const std::string& path) {
   return is_scene(path) || is_folder(path.substr(0, path.rfind(':'))) || is_folder(path);
 }
 
-/// Options and words that no command knows are kept by the parser; here they become an error that
-/// names the nearest one known.
+/// The parser keeps unknown options and words. Here they become an error that names the nearest
+/// known one.
 void check_nothing_left(const CLI::App& app, const std::string& help) {
   const std::vector<std::string> left = app.remaining();
   if (left.empty()) return;
@@ -64,14 +64,14 @@ void check_nothing_left(const CLI::App& app, const std::string& help) {
                    " --help`.");
 }
 
-/// "raymoval clean": what was being read of the command line.
+/// "raymoval clean": the command that was being parsed.
 std::string parsed_command(const CLI::App& program) {
   const std::vector<CLI::App*> commands = program.get_subcommands();
   return program.get_name() + (commands.empty() ? "" : " " + commands.front()->get_name());
 }
 
-/// The parser's message, in plain words where it says "--output: 1 required FILE missing" of an
-/// option without value, or "--frames: At Most 1 required but received 2".
+/// The parser's message. Plain words replace "--output: 1 required FILE missing" (an option without
+/// a value) and "--frames: At Most 1 required but received 2".
 std::string parse_problem(const CLI::ParseError& error) {
   constexpr std::string_view kRequired = ": 1 required ";
   constexpr std::string_view kMissing = " missing";
@@ -130,7 +130,7 @@ void CommandOptions::add(const std::string& names, const std::string& type, std:
 
 void CommandOptions::add(const std::string& names, const std::string& type,
                          std::vector<std::string>& values, const std::string& sentence) {
-  // An option takes one value each time; words that stand alone are all values.
+  // An option takes one value each time; words without an option are all values.
   const bool alone = !names.starts_with('-');
   app_of(command_)
       .add_option(names, values, sentence)
@@ -163,7 +163,7 @@ struct CommandParser::Parser {
 CommandParser::CommandParser(const std::string& sentence, const std::string& name)
     : parser_(new Parser{CLI::App(sentence, name)}) {
   parser_->app.allow_extras();
-  parser_->app.require_subcommand(0, 1);  // So that a run folder may be called "run".
+  parser_->app.require_subcommand(0, 1);  // Not more, so that a run folder may be called "run".
 }
 
 CommandParser::~CommandParser() = default;
@@ -178,7 +178,7 @@ void CommandParser::set_footer(const std::string& text) {
 
 CommandOptions CommandParser::add_command(const std::string& name, const std::string& sentence) {
   CLI::App* command = parser_->app.add_subcommand(name, sentence);
-  command->allow_extras();  // `check_nothing_left` makes better errors of what is left.
+  command->allow_extras();  // `check_nothing_left` reports the extras with better errors.
   return {command, name};
 }
 

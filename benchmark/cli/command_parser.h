@@ -11,15 +11,15 @@ namespace raymoval {
 class CommandOptions {
  public:
   /// Adds an option that takes one value.
-  /// @param names "--format", or "-o,--output", or "run" for a word that stands alone
+  /// @param names "--format", or "-o,--output", or "run" for a word without an option
   /// @param type the word for the value in --help, such as FILE
-  /// @param value where the value is put; it has to live until the command has run
-  /// @param sentence what --help says about it
+  /// @param value the destination of the value; must live until the command has run
+  /// @param sentence the description in --help
   void add(const std::string& names, const std::string& type, std::string& value,
            const std::string& sentence);
 
-  /// Adds an option that takes one value each time it is given, or any number of words that stand
-  /// alone.
+  /// Adds an option that takes one value each time it is given, or any number of words without an
+  /// option.
   void add(const std::string& names, const std::string& type, std::vector<std::string>& values,
            const std::string& sentence);
 
@@ -29,10 +29,10 @@ class CommandOptions {
   /// The heading in --help of the options that are added after this, such as "Method options".
   void group(const std::string& heading) { group_ = heading; }
 
-  /// Replaces the sentence of an option that was added before.
+  /// Replaces the sentence of an option.
   void set_sentence(const std::string& name, const std::string& sentence);
 
-  /// Sets what --help says below the options.
+  /// Sets the text of --help below the options.
   void set_footer(const std::string& text);
 
   /// Leaves the command out of --help.
@@ -60,19 +60,19 @@ class CommandParser {
   CommandParser(const CommandParser&) = delete;
   CommandParser& operator=(const CommandParser&) = delete;
 
-  /// Adds --version, whose answer is `text`.
+  /// Adds --version, which prints `text`.
   void set_version(const std::string& text);
-  /// Sets what --help of the program says at its end.
+  /// Sets the last text of the program's --help.
   void set_footer(const std::string& text);
 
   CommandOptions add_command(const std::string& name, const std::string& sentence);
 
-  /// Reads the command line and puts values where the options of the chosen command say.
+  /// Reads the command line and stores the values of the chosen command's options.
   /// @return the chosen command's name, or "" if --help or --version was given: see `answer`
-  /// @throws UsageError that names what is wrong and the nearest known command or option
+  /// @throws UsageError that names the wrong word and the nearest known command or option
   [[nodiscard]] std::string parse(int argc, const char* const* argv);
 
-  /// What --help or --version asks for, after `parse` returned "".
+  /// The text of --help or --version, after `parse` returned "".
   [[nodiscard]] const std::string& answer() const;
 
   /// The text of --help: of a command, or of the program if `command` is empty.

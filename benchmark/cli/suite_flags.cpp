@@ -17,8 +17,8 @@
 namespace raymoval {
 namespace {
 
-/// Whether the word without an option is a sequence and no suite. A shipped suite or a file is a
-/// suite, whatever else has its name. If nothing has its name, it is a sequence where the other
+/// Whether the word without an option is a sequence and not a suite. The name of a shipped suite or
+/// of a file always means the suite. A name that does not exist means a sequence if the other
 /// options name methods or sequences.
 bool means_sequence(const SuiteFlags& flags) {
   const std::string& path = flags.suite;
@@ -30,13 +30,13 @@ bool means_sequence(const SuiteFlags& flags) {
   return is_sequence || !flags.methods.empty() || !flags.sequences.empty();
 }
 
-/// How to name the folder or scene that has the name of a suite; empty if there is none.
+/// A hint for naming a folder or scene that has the name of a suite; empty if there is none.
 std::string if_a_folder_is_meant(const std::string& suite) {
   if (!is_folder(suite) || suite.find('/') != std::string::npos) return "";
   return " If the folder of that name is meant, write ./" + suite + ".";
 }
 
-/// Options that a suite file answers cannot be given together with one.
+/// Refuses options that the suite file already sets.
 void check_suite_alone(const SuiteFlags& flags) {
   std::string given = flags.sequence.first_given();
   if (!flags.protocols.empty()) given = "--protocol";
@@ -49,7 +49,8 @@ void check_suite_alone(const SuiteFlags& flags) {
                    if_a_folder_is_meant(flags.suite));
 }
 
-/// Adds the methods of the command line. One that is named and also part of "all" is added once.
+/// Adds the methods of the command line. A method that is named and also part of "all" is added
+/// once.
 void add_methods(const SuiteFlags& flags, const MethodRegistry& registry, Suite& suite) {
   if (!flags.as.empty()) {
     const std::string& method = flags.methods.front();

@@ -9,7 +9,7 @@
 
 namespace raymoval {
 
-/// Options that say what a run is about: a suite file, or sequences and methods one by one.
+/// Options for the content of a run: a suite file, or single sequences and methods.
 struct SuiteFlags {
   std::string suite, data, as, threads, time_limit, memory_limit;
   std::vector<std::string> sequences, methods, settings, protocols;
@@ -20,7 +20,7 @@ struct SuiteFlags {
   [[nodiscard]] Suite resolved() const;
 };
 
-/// Warns on standard error of each setting that changes nothing.
+/// Warns on standard error of each setting without effect.
 void warn_of_settings_without_effect(const Suite& suite);
 
 }  // namespace raymoval

@@ -90,7 +90,7 @@ SpeedRecord time_cells(int rounds) {
   }
   ScoredSequence scored = opened_scene();
   Cell first;
-  (void)time_cell(scored, suite.methods.front(), first);  // Makes what all cells share.
+  (void)time_cell(scored, suite.methods.front(), first);  // Builds the data that all cells share.
   std::vector<CellTimes> times(suite.methods.size());
   Times yardsticks;
   for (int round = 1; round <= rounds; ++round) {

@@ -7,9 +7,9 @@
 
 namespace raymoval::kernels_bench {
 
-/// Times a whole cell (load, method, score) of every registered method by its default on one fixed
-/// scene, and the yardstick before each of them, in rounds: a machine that slows down slows all of
-/// them. One thread does everything.
+/// Times a whole cell (load, method, score) of every registered method, with its default variant,
+/// on one fixed scene, and the yardstick before each cell. It works in rounds, so that a machine
+/// that slows down affects all methods. It uses one thread.
 /// @throws Error if a cell fails
 SpeedRecord time_cells(int rounds);
 

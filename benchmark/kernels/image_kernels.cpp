@@ -13,7 +13,8 @@
 namespace raymoval::kernels_bench {
 namespace {
 
-/// Casts one image into the job's range. @return steps made, 0 if it does not count them
+/// Casts one image into the job's range. @return the number of steps; 0 if the design does not
+/// count them
 using Design = std::function<std::int64_t(Workload&, const ImageJob&)>;
 
 /// The frame of an image (pose, limits, directions) with the right ranges.
@@ -71,7 +72,7 @@ void add(const std::string& name, Workload& workload, const Design& design) {
 }
 
 void add_yardstick(Workload& workload) {
-  const auto bits = std::make_shared<std::unique_ptr<DenseBits>>();  // Made when it is asked for.
+  const auto bits = std::make_shared<std::unique_ptr<DenseBits>>();  // Made at the first use.
   add("dense_bitset_dda", workload, [bits](Workload& w, const ImageJob& job) {
     if (!*bits) *bits = std::make_unique<DenseBits>(w.map);
     return dense_bitset_dda(**bits, job);

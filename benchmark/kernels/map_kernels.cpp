@@ -10,7 +10,7 @@
 namespace raymoval::kernels_bench {
 namespace {
 
-constexpr int kChanges = 25000;  // About what a scan adds.
+constexpr int kChanges = 25000;  // About the voxels that a scan adds.
 
 /// The city of one size; only one is held at a time.
 OccupancyMap& city(std::size_t voxels) {
@@ -24,7 +24,7 @@ OccupancyMap& city(std::size_t voxels) {
   return *held;
 }
 
-/// Empty voxels above the ground around a place, in runs as a scan's points come.
+/// Empty voxels above the ground around a place, in runs like the points of a scan.
 std::vector<VoxelIndex> new_voxels(std::size_t voxels, unsigned seed) {
   std::mt19937 random(seed);
   const int reach = static_cast<int>(city_reach(voxels) / 0.2) - 210;
@@ -47,7 +47,7 @@ Pose pose_in_city() {
 }
 
 void measure(benchmark::State& state, std::size_t voxels, const char* what) {
-  // The bricks, their boxes and twice the capacity while it grows.
+  // The bricks, their boxes, and twice the capacity while the map grows.
   const std::size_t needed = voxels * 30 + (std::size_t{1} << 30);
   if (available_memory() != 0 && available_memory() < needed) {
     state.SkipWithError("not enough free memory for a map of this size");

@@ -8,7 +8,7 @@
 namespace raymoval::kernels_bench {
 namespace {
 
-/// Calls `cast(ray, range)` for each bin that is asked for.
+/// Calls `cast(ray, range)` for each requested bin.
 template <class Cast>
 void for_rays(const ImageJob& job, Cast&& cast) {
   const FirstHitImage& frame = *job.frame;

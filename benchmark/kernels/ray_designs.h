@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The usual way to find first hits, as a yardstick: one ray after the other.
+// The usual way to find first hits, for comparison: one ray after the other.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace raymoval::kernels_bench {
 
 using namespace raymoval_method;
 
-/// All rays of an image, and where their ranges go.
+/// All rays of an image, and the destination of their ranges.
 struct ImageJob {
   const FirstHitImage* frame = nullptr;  ///< Grid, pose, limits and directions.
   std::vector<float>* range = nullptr;

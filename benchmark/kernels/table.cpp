@@ -18,12 +18,12 @@ using Json = nlohmann::json;
 /// The median of one benchmark on one workload, or why there is none.
 struct Timed {
   std::string kernel, workload;
-  double milliseconds = 0.0;  ///< An iteration.
+  double milliseconds = 0.0;  ///< Per iteration.
   std::map<std::string, double> counters;
   std::string error;
 
   [[nodiscard]] bool casts_images() const { return counters.contains("images_per_iteration"); }
-  /// Milliseconds an image or a scan where an iteration has several of them.
+  /// Milliseconds per image or scan, if an iteration has several.
   [[nodiscard]] double each() const {
     double count = 1.0;
     for (const char* name : {"images_per_iteration", "scans_per_iteration"}) {
@@ -38,7 +38,7 @@ struct Timed {
   }
 };
 
-/// Whether a record stands for all repetitions: their median, or the only one, or a failure.
+/// Whether a record represents all repetitions: their median, a single repetition, or a failure.
 bool stands_for_all(const Json& run) {
   if (run.value("error_occurred", false)) return run.value("repetition_index", 0) == 0;
   if (run.value("run_type", "") == "aggregate") return run.at("aggregate_name") == "median";
@@ -47,7 +47,7 @@ bool stands_for_all(const Json& run) {
 
 Timed timed_of(const Json& run) {
   Timed timed;
-  // "kernel/workload", and what Google Benchmark adds to it.
+  // "kernel/workload" with additions of Google Benchmark.
   const std::string name = run.at("run_name");
   const std::size_t slash = name.find('/');
   timed.kernel = name.substr(0, slash);
@@ -56,8 +56,8 @@ Timed timed_of(const Json& run) {
   if (!timed.error.empty()) return timed;
   const std::string unit = run.at("time_unit");
   const double scale = unit == "ns" ? 1e-6 : unit == "us" ? 1e-3 : unit == "ms" ? 1.0 : 1e3;
-  // Other programs hardly change the processor time of one thread; where several are at work it
-  // says nothing.
+  // Other programs hardly change the processor time of one thread; for several threads it has no
+  // meaning.
   const bool threaded = timed.kernel.ends_with("_2_threads") || timed.kernel.ends_with("line_2");
   timed.milliseconds = run.at(threaded ? "real_time" : "cpu_time").get<double>() * scale;
   for (const auto& [key, value] : run.items()) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNearest = 2.7, kFarthest = 50.0;  // Points of the map, metres from the sensor.
 
-/// Which points of a sequence a map is made of.
+/// The points of a sequence that a map is made of.
 enum class Points { kAll, kStatic };
 
 void fill_map(const Sequence& sequence, const HeldSequence& held, Points which, OccupancyMap& map) {

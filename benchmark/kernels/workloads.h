@@ -36,16 +36,17 @@ inline constexpr RayLimits kPaperLimits{2.7, 60.0};
 
 /// The sequence of $RAYMOVAL_DATA, if that is set, as "drive", and a simulated one as "simulated",
 /// both with the map of their static points (of every second scan, 2.7 .. 50 m). A drive with
-/// labels also comes as "drive_with_trails", its map with everything that moved. Loaded once.
+/// labels is also added as "drive_with_trails", with a map that includes moving points. Loaded
+/// once.
 /// @throws raymoval::Error if one cannot be read
 const std::vector<std::unique_ptr<Workload>>& workloads();
 
-/// Ground and house fronts over as many square metres as it takes: a map of about `voxels` voxels.
+/// A map of about `voxels` voxels: ground and house fronts.
 OccupancyMap city_of(std::size_t voxels);
 /// Half the side of that map, metres.
 double city_reach(std::size_t voxels);
 
-/// Bytes of memory that are free for use, by what the system says; 0 if it does not say.
+/// Bytes of free memory that the system reports; 0 if it reports none.
 std::size_t available_memory();
 
 }  // namespace raymoval::kernels_bench

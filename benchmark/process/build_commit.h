@@ -6,7 +6,7 @@ namespace raymoval {
 /// The commit that this program was built from, 40 hexadecimal digits; "unknown" without git.
 const char* build_commit();
 
-/// "clean" if what was compiled is what the commit holds, "changed" if not, or "unknown".
+/// "clean" if the compiled sources are those of the commit, "changed" if not, or "unknown".
 const char* build_tree();
 
 }  // namespace raymoval

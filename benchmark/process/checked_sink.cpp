@@ -11,7 +11,8 @@
 namespace raymoval {
 namespace {
 
-/// @param of "method 'x', scan 3", and `what` was given, for messages
+/// @param of "method 'x', scan 3", for messages
+/// @param what was given, for messages
 /// @throws MethodError for an unknown scan, or if there is not one value for each of its points
 void check_values(const std::string& of, const char* what, const TimedSource& scans,
                   std::size_t scan, std::size_t values) {

@@ -50,7 +50,7 @@ class CheckedReasons : public ReasonSink {
   void explain(const std::vector<std::string>& sentences) override;
   /// @throws MethodError before `explain`, and for an unknown scan, a wrong size or an unknown code
   void accept(std::size_t scan, const std::vector<std::uint8_t>& codes) override;
-  /// What was given; scans without reasons have none.
+  /// The reasons; scans without reasons have none.
   [[nodiscard]] Reasons finish() { return std::move(reasons_); }
 
  private:
@@ -78,7 +78,7 @@ class CheckedConfidence : public EvidenceSink {
   /// from 0 to 1; DataError as `ScanSpool::put`
   void accept(std::size_t scan, std::span<const float> evidence) override;
 
-  /// What was given. @throws MethodError that names the first scan without values
+  /// The confidences. @throws MethodError that names the first scan without values
   [[nodiscard]] ConfidenceStore finish();
 
  private:

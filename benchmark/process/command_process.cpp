@@ -22,8 +22,8 @@ ExitCode answer_of(const ChildEnd& end, const CommandWords& words, double limit_
     case ChildEnd::Kind::kNotStarted:
       throw DataError(not_started_text(end.code));
     case ChildEnd::Kind::kCancelled:
-    case ChildEnd::Kind::kTimeout:    // There is no limit on time,
-    case ChildEnd::Kind::kOutOfDisk:  // and none on its folder.
+    case ChildEnd::Kind::kTimeout:    // The command has no limit on time,
+    case ChildEnd::Kind::kOutOfDisk:  // and none on disk space.
       throw Cancelled();
     case ChildEnd::Kind::kOutOfMemory:
       throw DataError(fmt::format(

@@ -14,11 +14,11 @@ BuildRecord build_record();
 /// @param threads that the run uses
 MachineRecord machine_record(int threads);
 
-/// Forgets the largest memory so far, so that `peak_memory_mib` gives the largest from now on.
+/// Resets the peak memory, so that `peak_memory_mib` gives the largest value from now on.
 /// @return false if the system does not allow it
 bool reset_peak_memory();
 
-/// The largest resident memory of this process in MiB; no value if the system does not tell.
+/// The largest resident memory of this process in MiB; no value if the system does not report it.
 std::optional<double> peak_memory_mib();
 
 }  // namespace raymoval

@@ -20,13 +20,13 @@ namespace raymoval {
 
 using nlohmann::json;
 
-// What was read of the data; the names of the scans are those of the parent.
+// LoadedData without the names of the scans, which the parent already has.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadedData, settings, scans, labels, change)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MethodOptions, threads, with_reasons, with_confidence)
 
 namespace {
 
-/// An order as it is written.
+/// The written form of an order.
 struct OrderMessage {
   json place;
   std::string name, method;
@@ -40,7 +40,7 @@ struct OrderMessage {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OrderMessage, place, name, method, parameters, options, up,
                                    up_source, progress, progress_context)
 
-/// What stands before the masks, reasons and confidence of an answer.
+/// The head of an answer, before its masks, reasons and confidence.
 struct AnswerHead {
   std::string status, reason;
   json measured;
@@ -78,7 +78,7 @@ class MessageWriter {
   std::uint64_t offset_ = 0;
 };
 
-/// Reads it again.
+/// Reads what MessageWriter wrote.
 class MessageReader {
  public:
   explicit MessageReader(int file) : file_(file) {

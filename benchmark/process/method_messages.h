@@ -9,18 +9,18 @@
 
 namespace raymoval {
 
-/// What a process tells the child that it starts to run a method.
+/// The message to a child process that runs a method.
 struct MethodOrder {
-  SequenceRequest place;  ///< Where the child opens the sequence, and how.
+  SequenceRequest place;  ///< The sequence, and how the child opens it.
   MethodRequest request;  ///< The child needs its name, method and parameters only.
   MethodOptions options = {};
-  /// Which way is up there, which takes reading scans to find out.
+  /// The up direction of the sequence, which is costly: it is found by reading scans.
   UpDirection up = {};
   ProgressStyle progress = ProgressStyle::kQuiet;
   std::string progress_context = {};
 };
 
-// Both messages are files, since a pipe would hold up whoever writes more than the other reads.
+// Both messages are files, because a full pipe would block the writing process.
 
 /// @param task with a place
 /// @throws DataError if `file` cannot be written

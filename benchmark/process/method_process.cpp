@@ -31,7 +31,7 @@ constexpr int kProgressFile = 5;
                                kMethodCommand));
 }
 
-/// A shell may have left files of its own open under these numbers, which hold no order.
+/// A shell may have left other open files under these numbers, which hold no order.
 MethodOrder order_at_hand(const MethodRegistry& registry) {
   try {
     return read_order(kOrderFile, registry);
@@ -40,7 +40,7 @@ MethodOrder order_at_hand(const MethodRegistry& registry) {
   }
 }
 
-/// What became of a child that gave no answer.
+/// The answer for a child that gave none.
 MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
   MethodAnswer answer;
   answer.status = CellStatus::kFailed;
@@ -67,7 +67,8 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
       answer.reason = (asking_signal(end) != 0 ? "was ended from outside by " : "crashed: ") +
                       signal_text(end.code);
       if (end.code != SIGKILL) break;
-      // Nobody here sent it. The system does when memory runs out, and then this was the largest.
+      // This program did not send the signal. The system sends it to the largest process when
+      // memory runs out.
       if (end.largest_mib > 0.5 * machine_memory_mib()) answer.status = CellStatus::kOutOfMemory;
       answer.reason = fmt::format(
           "was killed from outside when it had {:.0f} MiB of memory: by the system if memory ran "
@@ -81,8 +82,8 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
   return answer;
 }
 
-/// Removes what a process that was ended could not: a recording that it unpacked, and the working
-/// folder of an external method.
+/// Removes the files that an ended process left: an unpacked recording, and the working folder of
+/// an external method.
 struct Tidy {
   ~Tidy() { remove_abandoned_scratch_folders(); }
 };
@@ -131,7 +132,7 @@ void serve_method(const MethodRegistry& registry) {
   progress.set_context(order.progress_context);
   MethodAnswer answer;
   try {
-    // The parent compares what is loaded here with what it has checked itself.
+    // The parent compares the data that is loaded here with the data that it has checked.
     Sequence sequence = open_sequence(order.place.path, order.place.options,
                                       {order.options.threads, &progress, nullptr, false});
     if (sequence.up_choice) sequence.up_choice = std::make_shared<const UpChoice>(order.up);
@@ -144,7 +145,7 @@ void serve_method(const MethodRegistry& registry) {
   }
   progress.end();
   write_answer(kAnswerFile, answer);
-  // Not by way of destructors: a method's threads or globals cannot hold up what is done.
+  // Ends without destructors, so that threads or globals of a method cannot delay the end.
   std::fflush(nullptr);
   ::_exit(0);
 }

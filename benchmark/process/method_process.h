@@ -9,13 +9,14 @@ namespace raymoval {
 inline constexpr const char* kMethodCommand = "run-method";
 
 /// Runs a method in a child process (this program with `kMethodCommand`). If the method crashes,
-/// hangs or leaks there, the answer has a status, a reason and the end of what it printed.
+/// hangs or leaks, the answer has a status, a reason and the end of the method's output.
 /// @param task with a place
 /// @throws Cancelled; DataError if no process can be started
 MethodAnswer run_method_apart(const MethodTask& task);
 
-/// The child's side: reads the order from the descriptors that `run_method_apart` gives it, and
-/// answers there. @throws UsageError if there are none because somebody typed the command
+/// The child's side: reads the order from the descriptors of `run_method_apart`, and writes the
+/// answer to them. @throws UsageError if there are no such descriptors, because a user typed the
+/// command
 void serve_method(const MethodRegistry& registry);
 
 }  // namespace raymoval

@@ -34,7 +34,7 @@ double mean_from(const std::vector<double>& values, std::size_t first, std::size
          static_cast<double>(count);
 }
 
-/// The first scans are left out: there is no map yet, and memory is new.
+/// The first scans are left out: the map is still empty, and memory is not yet allocated.
 void measure_growth(const std::vector<double>& by_scan, Measurement& measured) {
   constexpr std::size_t kFewest = 300, kFirst = 50, kCount = 100;
   if (by_scan.size() < kFewest) return;
@@ -70,7 +70,7 @@ Measurement measure(const StageTimes& times, const TimedSource& scans, double se
   return measured;
 }
 
-/// An external program gets files, so that nobody can tell when it reads them.
+/// An external program reads files, so that the order of its reading cannot be checked.
 std::optional<OnlineRule> online_rule(const MethodTask& task) {
   const ConfiguredMethod& method = task.request->method;
   if (!method.variant.online || !method.entry->manifest.empty()) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<OnlineRule> online_rule(const MethodTask& task) {
   return OnlineRule{task.request->name, seconds != nullptr ? *seconds : 0.0, task.options.threads};
 }
 
-/// Where an answer's pieces are kept, one for each scan.
+/// The store of an answer's pieces, one for each scan.
 ScanSpool spool_of(const MethodTask& task, const char* what) {
   const std::size_t scans = task.sequence->scans->size();
   return task.spool_beside.empty() ? ScanSpool(scans) : ScanSpool(scans, task.spool_beside, what);
@@ -91,7 +91,7 @@ ScanSpool spool_of(const MethodTask& task, const char* what) {
 
 MethodAnswer run_remover(Remover& remover, const MethodTask& task) {
   const std::string& name = task.request->name;
-  // The one frame that methods see; masks go by index, so nothing has to be turned back.
+  // The frame of all methods. Masks are by point index, so they need no transformation back.
   const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
   const TimedSource scans(local, online_rule(task));
   CheckedSink sink(name, scans, MaskStore(spool_of(task, "masks")));

@@ -43,7 +43,8 @@ void TimedSource::check_in_time(std::size_t index) const {
     latest = i;
   }
   const std::size_t at_once = rule_->threads > 1 ? 2 * static_cast<std::size_t>(rule_->threads) : 1;
-  if (later + (waits ? 0 : 1) <= at_once) return;  // The scan that ends a delay comes after it.
+  if (later + (waits ? 0 : 1) <= at_once)
+    return;  // With a delay, the first later scan only shows that the delay is over.
   throw MethodError(fmt::format(
       "method '{}' is marked online and answers for scan {} after it has read scan {}; expected "
       "the answer from the scans up to it{}. Answer earlier, or mark the variant as offline.",

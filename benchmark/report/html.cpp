@@ -21,7 +21,7 @@ bool begins_with_number(const std::string& text) {
   return parse_number<double>(number).has_value();
 }
 
-/// Whether column `place` holds numbers and, maybe, words for their lack.
+/// Whether column `place` holds numbers and possibly words for missing ones.
 bool holds_numbers(const TextTable& table, std::size_t place) {
   bool any = false;
   for (const TableRow& row : table.rows) {
@@ -92,7 +92,7 @@ std::string marked(const TableCell& cell) {
   return text;
 }
 
-/// The ground of a cell by its percents, so that 1 % can be seen and 50 % is not all.
+/// The background of a cell by its percentage: 1 % is visible, and 50 % is not yet the darkest.
 std::string heat_of(const TableCell& cell) {
   if (!cell.value) return "";
   const double share = std::clamp(std::sqrt(*cell.value / 100.0), 0.0, 1.0) * 0.75;

@@ -11,7 +11,7 @@ namespace raymoval {
 /// Text for an HTML page, also within quotes. Bytes that are not UTF-8 are replaced.
 std::string html_text(const std::string& text);
 
-/// The same for a name. A line may be broken behind its ':', '_', '/', '=' and ','.
+/// The same for a name. A line may be broken after ':', '_', '/', '=' and ','.
 std::string html_name(const std::string& name);
 
 enum class TableHeight { kWhole, kScrolled };
@@ -21,7 +21,7 @@ enum class TableHeight { kWhole, kScrolled };
 /// Summary rows stay at the bottom.
 std::string html_table(const TextTable& table, TableHeight height = TableHeight::kWhole);
 
-/// A table of what is lost, in percent. The larger a value, the darker its ground.
+/// A table of lost shares in percent. The larger a value, the darker its background.
 std::string html_heat_table(const TextTable& table);
 
 /// A part of the page with its heading.

@@ -23,8 +23,8 @@ using nlohmann::ordered_json;
 constexpr int kBits = 16;
 
 /// Appends each number as its difference from the number before it (modulo 2^16), with the sign in
-/// the lowest bit: first all low bytes, then all high ones. Numbers that vary little deflate well
-/// so.
+/// the lowest bit: first all low bytes, then all high ones. In this form, numbers that vary little
+/// compress well.
 void append_differences(const std::vector<std::uint16_t>& values, std::string& bytes) {
   const std::size_t start = bytes.size();
   bytes.resize(start + 2 * values.size());
@@ -40,7 +40,7 @@ void append_differences(const std::vector<std::uint16_t>& values, std::string& b
   }
 }
 
-/// Where the points' coordinates start, and how coarse they are.
+/// The origin and the resolution of the points' coordinates.
 struct Frame {
   std::array<std::int32_t, 3> origin{};  ///< Voxels.
   int shift = 0;                         ///< 2^shift steps are one unit of a coordinate.
@@ -156,7 +156,7 @@ std::string base64(std::string_view bytes) {
 
 std::string script_json(const ordered_json& json) {
   const std::string text = json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
-  const std::vector<std::string_view> pieces = split(text, '<');  // Only texts have it.
+  const std::vector<std::string_view> pieces = split(text, '<');  // Only texts contain '<'.
   return fmt::format("{}", fmt::join(pieces, "\\u003c"));
 }
 

@@ -17,7 +17,7 @@ std::string base64(std::string_view bytes);
 /// JSON for a <script> element. No text in it can end the element.
 std::string script_json(const nlohmann::ordered_json& json);
 
-/// What the page's script reads: the colours of the view, and the heads of all scenes.
+/// The data of the page's script: the colours of the view, and the heads of all scenes.
 /// @param heads see `PackedScene`
 std::string page_data(const std::vector<std::string>& heads);
 

@@ -17,14 +17,14 @@
 namespace raymoval {
 namespace {
 
-/// Scenes for the 3-D view, and what to say where there are none.
+/// Scenes for the 3-D view, and messages on missing ones.
 struct Points {
   std::vector<std::string> scenes;  ///< Their heads.
   std::vector<std::pair<std::string, std::string>> streams;
-  std::vector<std::string> lost;      ///< What was wrong with the run's own files.
+  std::vector<std::string> lost;      ///< Problems with the run's own files.
   std::vector<std::string> warnings;  ///< For the user's terminal; these include `lost`.
-  /// Names of sequences that could not be opened. Why is in `warnings` but not in the page, which
-  /// is handed around: the reason may quote whatever place a foreign run.json names.
+  /// Names of sequences that could not be opened. The reason is in `warnings` but not in the page,
+  /// which may be published: it may quote a path of a foreign run.json.
   std::vector<std::string> unopened;
 };
 
@@ -92,7 +92,7 @@ Points collect_points(const PageRequest& request) {
       throw;
     } catch (const UnreadableError&) {
       throw;
-    } catch (const Error& error) {  // The rest of the report is no worse for it.
+    } catch (const Error& error) {  // The rest of the report does not depend on it.
       if (request.points_needed) throw;
       points.warnings.push_back(error.what());
       points.unopened.push_back(name);
@@ -164,8 +164,8 @@ std::string listed(const std::vector<std::string>& names, const std::string& nou
   return join({names.begin(), names.end() - 1}) + " and " + names.back();
 }
 
-/// What was run: "simulated-quick: raymoval:online and raymoval:offline on town and crossing". Runs
-/// without a suite file all have one name, which says nothing.
+/// The title of a run: "simulated-quick: raymoval:online and raymoval:offline on town and
+/// crossing". The name of a run without a suite file is left out.
 std::string title_of(const RunResults& results) {
   std::vector<std::string> methods;
   for (const std::string& method : results.methods) {
@@ -183,7 +183,7 @@ std::string subtitle(const RunResults& results) {
          join(results.protocols);
 }
 
-/// All before <body>.
+/// Everything before <body>.
 std::string head_html(const std::string& title) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -194,7 +194,7 @@ std::string head_html(const std::string& title) {
          std::string(page_file("page.css")) + "</style>\n</head>\n";
 }
 
-/// @param with_view whether the page has the 3-D view, whose licence it then names
+/// @param with_view whether the page has the 3-D view, whose licence the footer then names
 std::string footer_html(bool with_view) {
   std::string html =
       "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.";
@@ -208,7 +208,7 @@ std::string footer_html(bool with_view) {
   return html + "></footer>\n";
 }
 
-/// The scripts of a page, and what they read.
+/// The scripts of a page, and their data.
 /// @param scenes the heads of `PackedScene`s; none: there is no view
 /// @param streams those of all scenes
 std::string scripts_html(const std::vector<std::string>& scenes,

@@ -14,7 +14,7 @@ namespace raymoval {
 /// Whether the program was built with the 3-D view.
 bool has_page_view();
 
-/// What a page is made of.
+/// The content of a page.
 struct PageRequest {
   const KeptRun* run = nullptr;
   std::vector<OutsideColumn> published;    ///< Papers' rows; may be empty.
@@ -29,18 +29,18 @@ struct PageRequest {
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// A page, and what is missing from it.
+/// A page, and its missing parts.
 struct Page {
   std::string html;
-  std::vector<std::string> warnings;  ///< What is missing, such as a sequence's points.
+  std::vector<std::string> warnings;  ///< Missing parts, such as a sequence's points.
 };
 
-/// Makes the report as one HTML file that needs nothing else.
+/// Makes the report as one self-contained HTML file.
 /// @throws Cancelled; DataError if `points_needed` and a sequence cannot be opened
 Page make_page(const PageRequest& request);
 
-/// A cleaned map as one HTML file that needs nothing else: the 3-D view of what was kept and what
-/// was removed, and below it some lines of text.
+/// A cleaned map as one self-contained HTML file: the 3-D view of kept and removed points, and some
+/// lines of text below it.
 /// @param scene of a `MapSceneBuilder`
 std::string map_page(const Scene& scene, const std::string& title,
                      const std::vector<std::string>& lines);

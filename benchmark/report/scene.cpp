@@ -17,7 +17,7 @@
 namespace raymoval {
 namespace {
 
-/// The first size of cells if every point stayed until then.
+/// The first size of cells, if no point was thinned before.
 constexpr int kFirstCell = kStepsPerVoxel / 4;
 constexpr int kLargestCell = 1 << 24;
 
@@ -29,13 +29,13 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   return VoxelKeyHash{}(hash * 0x9E3779B97F4A7C15ULL + value);
 }
 
-/// The share of the points that may be wrongly classified ones.
+/// The largest share of wrongly classified points.
 constexpr double kErrorShare = 0.6;
 
-/// The share of the points that may be removed ones.
+/// The largest share of removed points.
 constexpr double kRemovedShare = 0.4;
 
-/// Ids of SemanticKITTI for what stands and what moves.
+/// SemanticKITTI's ids for kept and removed points.
 constexpr std::uint16_t kKeptId = 9, kRemovedId = 251;
 
 /// The Morton code of a point: the bits of its coordinates in turn, z on top.
@@ -51,8 +51,8 @@ Morton morton_of(const ShownPoint& point) {
   return code;
 }
 
-/// The position of a point in steps, of which `kStepsPerVoxel` are an edge of a `kPageVoxel`. It
-/// lies within the voxel of `voxel_index`, whatever rounding does.
+/// The position of a point in steps, of which `kStepsPerVoxel` are an edge of a `kPageVoxel`. It is
+/// always within the voxel of `voxel_index`, despite rounding.
 /// @throws DataError beyond what 32 bits hold
 std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max() - kStepsPerVoxel;
@@ -102,7 +102,7 @@ void gather_points(const ReportPoints& first, const ReportPoints& second, Scene&
   }
 }
 
-/// What a method did to one scan.
+/// The verdicts of a method on one scan.
 struct ScanVerdicts {
   Mask removed;
   std::vector<std::uint8_t> reasons;  ///< Empty if there are none.
@@ -113,7 +113,7 @@ struct ScanVerdicts {
   }
 };
 
-/// Reads a sequence scan by scan and chooses what is shown.
+/// Reads a sequence scan by scan and chooses the shown points.
 class SceneBuilder {
  public:
   SceneBuilder(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit)
@@ -197,7 +197,7 @@ class SceneBuilder {
   const Sequence& sequence_;
   std::size_t limit_;
   ReportPoints errors_, others_;
-  std::vector<std::uint8_t> bytes_;  ///< What each cell did to the present point.
+  std::vector<std::uint8_t> bytes_;  ///< The verdict of each cell on the current point.
   std::map<std::uint16_t, LabelClass> labels_;
   bool only_controls_ = false;
   Scene scene_;
@@ -205,8 +205,8 @@ class SceneBuilder {
 
 }  // namespace
 
-// Two cells with the same 64-bit hash would be thinned as one: of a million cells that happens once
-// in tens of millions of reports, and costs one point of a picture.
+// Two cells with the same 64-bit hash are thinned as one. With a million cells, this happens once
+// in tens of millions of reports, and costs one shown point.
 std::uint64_t ReportPoints::key(const ShownPoint& point, std::uint64_t group) const {
   std::uint64_t hash = group;
   for (const std::int32_t step : point.step) {

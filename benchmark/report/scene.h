@@ -28,17 +28,16 @@ struct ShownPoint {
 };
 
 /// Keeps points up to a limit. If more come, it divides space into cells and keeps the first point
-/// of each cell; the cells grow until the limit holds. The same points in the same order always
-/// leave the same ones.
+/// of each cell; the cells grow until the limit holds. The result depends only on the points and
+/// their order.
 class ReportPoints {
  public:
-  /// @param verdicts how many bytes stand beside each point
-  /// @param cell the first size of a cell in steps. If 0, every point stays as long as there is
-  /// room
+  /// @param verdicts the number of bytes for each point
+  /// @param cell the first size of a cell in steps. If 0, all points are kept while there is room
   ReportPoints(std::size_t limit, std::size_t verdicts, int cell)
       : limit_(limit), verdicts_(verdicts), cell_(cell) {}
 
-  /// @param group points thin out only points of the same group
+  /// @param group each group is thinned separately
   void add(const ShownPoint& point, std::uint64_t group, std::span<const std::uint8_t> verdict);
   /// Thins to `limit` or fewer.
   void reduce(std::size_t limit);
@@ -63,8 +62,8 @@ class ReportPoints {
   tsl::robin_set<std::uint64_t, VoxelKeyHash> taken_;
 };
 
-/// The edge of the voxels that a page names, and by which it thins points, metres. The `erasor`
-/// protocol uses the same.
+/// The edge of the voxels that a page shows and thins points by, metres. The `erasor` protocol uses
+/// the same.
 inline constexpr double kPageVoxel = 0.2;
 
 /// A cell whose points can be shown.
@@ -73,7 +72,7 @@ struct SceneCell {
   bool control = false;
   MaskStore masks;
   std::filesystem::path removals;      ///< The folder that holds the reasons.
-  std::vector<std::string> sentences;  ///< What its reasons mean; empty if it gave none.
+  std::vector<std::string> sentences;  ///< The meaning of its reasons; empty if it gave none.
 };
 
 /// How many points of a cell had each outcome.
@@ -88,10 +87,10 @@ struct SceneLabel {
   LabelClass kind = LabelClass::kStatic;
 };
 
-/// What the 3-D view shows of a sequence.
+/// The content of the 3-D view for a sequence.
 struct Scene {
   std::string sequence;
-  /// Whether nobody knows what moves: a point was kept or removed, and neither is right or wrong.
+  /// Whether the sequence has no labels: points are kept or removed, but not right or wrong.
   bool is_unlabelled = false;
   std::vector<SceneCell> cells;
   std::vector<VerdictCounts> counts;  ///< One for each cell, over all points in range.
@@ -101,8 +100,8 @@ struct Scene {
   std::vector<Eigen::Vector3d> trajectory;  ///< Sensor positions, metres.
   std::vector<SceneLabel> labels;           ///< By id.
   std::uint64_t points_in_range = 0;
-  /// Cells by which points were thinned, in steps; 0: not. Where nothing is labelled, those of the
-  /// removed and of the kept ones.
+  /// Cells by which points were thinned, in steps; 0: not thinned. Without labels, these are the
+  /// cells of removed and of kept points.
   int error_cell = 0, other_cell = 0;
   std::vector<ShownPoint> points;  ///< In the order of a Morton curve.
   /// For each cell a byte for each point. Bit 0 is set if the point was removed; the bits above it
@@ -111,25 +110,25 @@ struct Scene {
 };
 
 /// Reads scans, labels and removals, and chooses at most `limit` points. Points that a method
-/// classified wrongly come first. Of the others one is shown in each voxel of `kPageVoxel`; of the
-/// moving ones, one in each voxel and scan. Both are thinned by larger cells if `limit` asks for
-/// it. Controls are wrong on purpose, so their errors do not count.
+/// classified wrongly come first. Of the other points, one is shown in each voxel of `kPageVoxel`;
+/// of moving points, one in each voxel and scan. Both are thinned by larger cells if `limit`
+/// requires it. Controls are wrong on purpose, so their errors do not count.
 /// @throws DataError if reasons are damaged
 Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::size_t limit,
                   Progress* progress);
 
-/// Chooses the points of a cleaned map that a page shows, scan by scan: what was kept and what was
-/// removed, without labels. At most `limit` points are held. One is shown in each cell of
-/// `kPageVoxel`, or of larger cells if `limit` asks for it; removed points have up to four tenths
-/// of the room, and one in each cell and scan.
+/// Chooses the points of a cleaned map for a page, scan by scan: kept and removed points, without
+/// labels. At most `limit` points are held. One point is shown in each cell of `kPageVoxel`, or of
+/// larger cells if `limit` requires it. Up to 40 % of the points are removed points, one in each
+/// cell and scan.
 class MapSceneBuilder {
  public:
-  /// @param method the name that the page gives to what was removed
-  /// @param T_upright_world the turn that brings up to z
+  /// @param method the name for removed points in the page
+  /// @param T_upright_world the rotation that turns up to z
   MapSceneBuilder(const std::string& sequence, const std::string& method,
                   const Pose& T_upright_world, std::size_t limit);
 
-  /// To be called for each scan, with points or without.
+  /// Must be called for each scan, also without points.
   void add_scan(const std::string& name, const Eigen::Vector3d& sensor);
   /// Adds a point of the scan that was added last.
   /// @param world in the frame of the scans, metres
@@ -142,7 +141,7 @@ class MapSceneBuilder {
   Scene scene_;
 };
 
-/// A scene as a page has it.
+/// The form of a scene in a page.
 struct PackedScene {
   /// JSON for a <script> element: names, numbers, trajectory, labels, and how to read the streams.
   std::string head;

@@ -12,8 +12,8 @@
 
 namespace raymoval {
 
-// Each function returns the HTML below the heading of a section, or an empty text if there is
-// nothing to say.
+// Each function returns the HTML below the heading of a section, or an empty text if it has no
+// content.
 
 /// The few numbers at the top: cells, sequences, failures, controls.
 std::string facts_html(const ResultsRecord& record, const RunResults& results);
@@ -24,14 +24,14 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
 std::string cells_html(const RunResults& results);
 /// The charts: PR against RR, accuracy against time, time of stages.
 std::string charts_html(const RunResults& results);
-/// What methods said of points against what came true, as a chart and tables.
+/// The methods' confidences against the true shares, as a chart and tables.
 std::string confidence_html(const RunResults& results);
 /// The shares of moving points that stay and of static points that are removed, by range, height
 /// and class.
 std::string losses_html(const RunResults& results);
-/// The cells without a result, each with the reason and the end of what it printed.
+/// The cells without a result, each with the reason and the end of its output.
 std::string failures_html(const RunResults& results);
-/// What changed against a reference run called `name`.
+/// The changes against a reference run called `name`.
 std::string comparison_html(const Comparison& comparison, const std::string& name);
 /// The effective parameters of each method, the sequences, protocols, program and machine.
 std::string configuration_html(const ResultsRecord& record, const MethodRegistry& methods);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a report's numbers come from: failures, changes, configuration.
+// The origin of a report's numbers: failures, changes, configuration.
 #include "benchmark/report/sections.h"
 #include "benchmark/result/cell_json.h"
 #include "benchmark/tables/citations.h"
@@ -8,7 +8,7 @@
 namespace raymoval {
 namespace {
 
-/// The parameter's table entry, if this program knows the method.
+/// The parameter's table entry; null if the registry lacks the method.
 const ParameterSpec* spec_of(const MethodRegistry& methods, const std::string& method,
                              const std::string& key) {
   for (const auto& entry : methods.entries()) {

@@ -36,15 +36,15 @@ struct MethodRecord {
   Configuration parameters = {};
 };
 
-/// A protocol as a suite asks for it.
+/// A protocol of a suite.
 struct ProtocolRecord {
-  std::string name;      ///< Unique in the suite: "erasor", or what "as" says.
+  std::string name;      ///< Unique in the suite: "erasor", or the value of "as".
   std::string protocol;  ///< Name in the registry.
-  std::string version;   ///< Empty in the suite of files of earlier versions.
+  std::string version;   ///< Empty in files of earlier versions.
   Configuration options = {};
 };
 
-/// What one protocol says of one cell.
+/// The result of one protocol for one cell.
 struct Score {
   ProtocolRecord protocol;
   std::vector<std::pair<std::string, std::int64_t>> counts = {};
@@ -66,7 +66,7 @@ struct ColumnRecord {
   std::vector<ColumnValue> values;
 };
 
-/// What a method removed.
+/// The points that a method removed.
 struct MaskRecord {
   std::string digest;        ///< Equal masks have equal digests.
   std::int64_t removed = 0;  ///< Points.
@@ -78,13 +78,13 @@ struct StageSeconds {
   double seconds = 0.0;
 };
 
-/// What running a method costs. It is all of a cell that differs from run to run.
+/// The cost of running a method. No other part of a cell differs from run to run.
 struct Measurement {
   int threads = 1;
   double mean_seconds = 0.0;  ///< Per scan, without waiting for scans.
   std::optional<double> median_seconds = std::nullopt, p90_seconds = std::nullopt;
-  /// Mean of scans 50 to 149 and of the last 100, where the sequence has 300 scans or more: whether
-  /// a method gets slower the more it has seen.
+  /// Mean of scans 50 to 149 and of the last 100 scans, if the sequence has 300 scans or more. A
+  /// rising mean shows that a method gets slower with the number of scans.
   std::optional<double> early_seconds = std::nullopt, late_seconds = std::nullopt;
   double total_seconds = 0.0;  ///< Without waiting for scans.
   double load_seconds = 0.0;   ///< Waiting for scans.
@@ -93,38 +93,38 @@ struct Measurement {
   /// Mean seconds per scan of each run, in a run with repeats; the other values are those of the
   /// run of median time. Empty without repeats.
   std::vector<double> repeats = {};
-  /// So many cells ran at once on the machine, which makes each of them slower. No value: the
-  /// method ran alone.
+  /// Number of cells that ran at once on the machine, which makes each slower. No value: the method
+  /// ran alone.
   std::optional<int> side_by_side = std::nullopt;
 };
 
 /// The result of one sequence with one method and one set of parameters, scored by every protocol
-/// of the suite. This is what cell.json holds (results/schema/cell.schema.json).
+/// of the suite. It is the content of cell.json (results/schema/cell.schema.json).
 struct Cell {
   std::string sequence;
   std::string name;  ///< Name of the method in the suite, "raymoval:online".
   std::string key;   ///< See `cell_key`; empty if the data could not be read.
   CellStatus status = CellStatus::kOk;
   std::string reason = {};       ///< Why there is no result.
-  std::string output_tail = {};  ///< What a method that ran in its own process printed last.
+  std::string output_tail = {};  ///< The end of the output of a method in its own process.
   MethodRecord method = {};
   std::optional<DataRecord> data = std::nullopt;  ///< No value if the data could not be read.
   std::vector<Score> scores = {};  ///< One for each protocol; empty unless the status is kOk.
   std::optional<ColumnRecord> columns = std::nullopt;
-  std::optional<Reliability> reliability = std::nullopt;  ///< If its confidence was asked for.
+  std::optional<Reliability> reliability = std::nullopt;  ///< Set if confidences were requested.
   std::optional<MaskRecord> masks = std::nullopt;
   std::optional<Measurement> measured = std::nullopt;  ///< No value in a reference without times.
 
   [[nodiscard]] bool ok() const { return status == CellStatus::kOk; }
-  /// Gives the cell a status without a result: its scores and columns are dropped.
+  /// Sets a status without a result: scores and columns are dropped.
   void fail(CellStatus why, const std::string& text);
   /// "town / raymoval:online", for messages.
   [[nodiscard]] std::string title() const { return sequence + " / " + name; }
-  /// The score by what the suite calls `protocol`; null if there is none.
+  /// The score by the protocol that the suite calls `protocol`; null if there is none.
   [[nodiscard]] const Score* score(const std::string& protocol) const;
 };
 
-/// All that the counts of a cell depend on.
+/// All inputs that determine the counts of a cell.
 struct CellIdentity {
   MethodRecord method;
   DataRecord data;
@@ -134,7 +134,7 @@ struct CellIdentity {
 /// A further run of a cell's method for its time (results/schema/timing.schema.json).
 struct RepeatRecord {
   std::string key;     ///< Key of the cell.
-  int number = 2;      ///< The run that made the cell is number 1.
+  int number = 2;      ///< The first run, which made the cell, is number 1.
   std::string digest;  ///< Of the masks.
   Measurement measured = {};
 };

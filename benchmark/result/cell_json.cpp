@@ -17,7 +17,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Why a rate is undefined. Such a rate is null, and its reason stands in an object of its own.
+/// Why a rate is undefined. Such a rate is null in the file, and its reason is in a separate
+/// object.
 std::string reason_of(const Named<std::string>& reasons, const std::string& name) {
   for (const auto& [known, reason] : reasons) {
     if (known == name) return reason;

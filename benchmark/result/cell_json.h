@@ -24,14 +24,14 @@ class SchemaVersionError : public DataError {
 Cell read_cell(const std::filesystem::path& file);
 void write_cell(const std::filesystem::path& file, const Cell& cell);
 
-/// The same of a further run, timing-2.json.
+/// Reads a further run, such as timing-2.json.
 RepeatRecord read_repeat(const std::filesystem::path& file);
 void write_repeat(const std::filesystem::path& file, const RepeatRecord& repeat);
 
-/// Hash of all that the counts of a cell depend on. Any change changes the key.
+/// Hash of all inputs that determine the counts of a cell. Any change changes the key.
 std::string cell_key(const CellIdentity& identity);
 
-/// A parameter as it stands in result files: 1.0 where `parameter_text` says 1, a text in quotes.
+/// A parameter as in result files: 1.0 where `parameter_text` gives 1, a text in quotes.
 std::string value_text(const ParameterValue& value);
 /// The value as text; a text has no quotes.
 std::string plain_text(const ParameterValue& value);

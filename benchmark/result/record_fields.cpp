@@ -93,10 +93,10 @@ void RecordReader::read(const Json& json, const std::string& place, std::uint64_
 }
 
 void RecordReader::read(const Json& json, const std::string& place, std::int64_t& value) const {
-  // What every reader of JSON holds exactly; sums and differences of such counts fit too.
+  // Every JSON reader holds these numbers exactly. Sums and differences of such counts fit too.
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   expect(json.is_number_integer(), "a whole number", json, place);
-  value = json.get<std::int64_t>();  // Negative for what is beyond 63 bits.
+  value = json.get<std::int64_t>();  // Negative for numbers beyond 63 bits.
   const bool fits = value >= (json.is_number_unsigned() ? 0 : -kMost) && value <= kMost;
   expect(fits, "a whole number of 53 bits", json, place);
 }
@@ -137,7 +137,7 @@ void RecordReader::read(const Json& json, const std::string& place, ParameterVal
     read(json, place, held);
     value = held;
   };
-  // JSON has no number for what is infinite or undefined; it writes null instead.
+  // JSON has no infinite or undefined numbers; null is written instead.
   if (json.is_null()) return void(value = std::numeric_limits<double>::quiet_NaN());
   if (json.is_boolean()) return read_held(false);
   if (json.is_number_integer()) return read_held(std::int64_t{0});

@@ -43,12 +43,12 @@ class RecordWriter {
 
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
 
-  /// A field that is always there.
+  /// A required field.
   template <class Value>
   void field(const char* key, const Value& value) {
     json[key] = json_of(value);
   }
-  /// A name of a sequence, method, variant, protocol or suite, see core/name.h; or nothing.
+  /// A name of a sequence, method, variant, protocol or suite, see core/name.h; or an empty text.
   void name(const char* key, const std::string& value) { field(key, value); }
   /// A field that is null if the value is empty.
   template <class Value>
@@ -81,7 +81,7 @@ class RecordWriter {
     describe_part(part);
     json[key] = std::move(part.json);
   }
-  /// Says that a field must be there although another record may lack it.
+  /// Makes a field required that other records may lack.
   void require(const char*) const {}
   /// The version of a whole file, which `read_sealed_with` checks.
   void schema_version() { field("schema_version", kSchemaVersion); }
@@ -125,8 +125,8 @@ class RecordReader {
   template <class Record>
   using Of = Record&;
 
-  /// Both arguments have to live as long as this object.
-  /// @param place where the object stands in its file, "cells[3].method"; empty for all of it
+  /// `json` and `file` must outlive this object.
+  /// @param place of the object in its file, "cells[3].method"; empty for the whole file
   RecordReader(const nlohmann::ordered_json& json, const std::string& file, std::string place = "");
 
   template <class Value>
@@ -156,16 +156,16 @@ class RecordReader {
   void schema_version() const {}
   /// @throws SchemaVersionError unless the field "schema_version" is that of this program
   void check_schema_version() const;
-  /// @throws FieldError that says what is wrong with a field
+  /// @throws FieldError that describes the problem of a field
   [[noreturn]] void fail(const std::string& place, const std::string& problem) const;
 
  private:
   using Json = nlohmann::ordered_json;
-  /// Whether there is such a field and it is not null.
+  /// Whether the field exists and is not null.
   [[nodiscard]] bool has(const char* key) const;
   [[nodiscard]] const Json& at(const char* key) const;
   [[nodiscard]] std::string place_of(const std::string& key) const;
-  /// @param good whether `json` is what was expected
+  /// @param good whether `json` is as expected
   void expect(bool good, const char* what, const Json& json, const std::string& place) const;
 
   void read(const Json& json, const std::string& place, bool& value) const;
@@ -218,7 +218,7 @@ nlohmann::ordered_json to_json(const Record& record) {
   return std::move(writer.json);
 }
 
-/// @param file stands in messages
+/// @param file for messages
 template <class Record>
 Record read_as(const nlohmann::ordered_json& json, const std::string& file) {
   RecordReader reader(json, file);

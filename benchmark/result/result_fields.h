@@ -27,7 +27,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<ReliabilityBin> bi
   visitor.field("steps", bin.steps);
 }
 
-/// A column without its name, under which it stands.
+/// A column without its name, which is its key.
 template <class Visitor>
 void describe(Visitor& visitor, typename Visitor::template Of<ColumnValue> column) {
   visitor.field("part", column.share.part);
@@ -125,7 +125,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<Intervals> interva
   describe_rates(visitor, intervals.rates);
 }
 
-/// What a Score and a ProtocolResult have in common.
+/// The common fields of a Score and a ProtocolResult.
 template <class Visitor, class Result>
 void describe_result(Visitor& visitor, Result& result) {
   visitor.field("counts", result.counts);
@@ -252,12 +252,12 @@ void describe(Visitor& visitor, typename Visitor::template Of<MachineRecord> mac
   visitor.optional("jobs", machine.jobs);
 }
 
-/// Where the sequences were found, a list beside theirs.
+/// The places of the sequences, in a separate list.
 void describe_places(RecordWriter& writer, const std::vector<SequenceRecord>& sequences);
 void describe_places(RecordReader& reader, std::vector<SequenceRecord>& sequences);
 
-/// @param is_whole whether it is run.json, and not a part of results.json, which has no paths and
-/// has the cells themselves
+/// @param is_whole true for run.json, false for the part of results.json, which has cells and no
+/// paths
 template <class Visitor>
 void describe_run(Visitor& visitor, typename Visitor::template Of<RunRecord> run, bool is_whole) {
   visitor.schema_version();

@@ -11,7 +11,7 @@
 namespace raymoval {
 namespace {
 
-/// The item of a list that is about a cell; it is added if there is none.
+/// The item of a list for a cell; it is added if there is none.
 template <class Item>
 Item& item_of(std::vector<Item>& list, const std::string& cell) {
   for (Item& known : list) {
@@ -239,7 +239,7 @@ std::vector<Sweep> sweeps_of(const RunResults& results) {
   std::vector<Sweep> sweeps;
   for (const SweptCell& point : results.sweeps) {
     const std::string name = point.sweep();
-    // The name of a foreign run's parameter may hold a comma, so names alone do not tell all.
+    // A parameter's name in a foreign run may hold a comma, so equal names are not enough.
     auto sweep = std::ranges::find_if(sweeps, [&](const Sweep& known) {
       return known.name == name && known.points.front()->values.size() == point.values.size();
     });
@@ -293,7 +293,7 @@ void choose_cells(ResultsRecord& results, const std::vector<std::string>& only) 
                 [&](const auto& item) { return !has_cell(&Cell::sequence, name_of(item)); });
   std::erase_if(results.run.methods,
                 [&](const auto& item) { return !has_cell(&Cell::name, name_of(item)); });
-  results.missing.clear();  // Those are of the whole run.
+  results.missing.clear();  // They are those of the whole run.
 }
 
 void choose_protocols(RunResults& results, const std::vector<std::string>& protocols) {

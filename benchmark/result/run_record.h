@@ -20,7 +20,7 @@ struct SequenceRecord {
   std::optional<PoseFitRecord> pose_fit = std::nullopt;  ///< No value until it was measured.
 };
 
-/// What a method of a run is a point of.
+/// The point of a sweep that a method of a run is.
 struct SweepRecord {
   std::string of;        ///< Name without the swept values, "raymoval:offline".
   Configuration values;  ///< The swept values of this point.
@@ -37,7 +37,7 @@ struct SuiteMethodRecord {
   std::optional<Configuration> changed_from = std::nullopt;
 };
 
-/// Says which cell of a run is meant.
+/// Identifies a cell of a run.
 struct CellName {
   std::string sequence;
   std::string name;  ///< Name of the method in the suite.
@@ -47,24 +47,24 @@ struct CellName {
   [[nodiscard]] std::string title() const { return sequence + " / " + name; }
 };
 
-/// What built the program.
+/// The version and the compiler of the program.
 struct BuildRecord {
   std::string version;
   std::string commit, source_tree;  ///< Empty in files of earlier versions.
   std::string compiler, build_type;
 };
 
-/// What a run was made on.
+/// The machine of a run.
 struct MachineRecord {
   std::string processor;
   int cores = 0;
   std::optional<std::int64_t> memory_gib = std::nullopt;
-  int threads = 0;  ///< That the run used.
-  /// Cells that ran at once, each with these threads. No value: one after the other.
+  int threads = 0;  ///< Threads of the run.
+  /// Cells that ran at once, each with these threads. No value: one cell at a time.
   std::optional<int> jobs = std::nullopt;
 };
 
-/// What run.json holds: the suite as resolved, its cells, build and machine.
+/// The content of run.json: the resolved suite, its cells, build and machine.
 struct RunRecord {
   std::string suite = {};  ///< Its name.
   std::vector<SequenceRecord> sequences = {};
@@ -79,7 +79,7 @@ struct RunRecord {
   [[nodiscard]] std::vector<CellName> all_cells() const;
 };
 
-/// What results.json holds.
+/// The content of results.json.
 struct ResultsRecord {
   RunRecord run;
   bool controls_checked = true;
@@ -91,7 +91,7 @@ struct ResultsRecord {
   [[nodiscard]] const Cell* find(const CellName& name) const;
 };
 
-/// What a sequence, method or protocol of a run is called.
+/// The name of a sequence, method or protocol of a run.
 inline const std::string& name_of(const SequenceRecord& sequence) {
   return sequence.data.name;
 }

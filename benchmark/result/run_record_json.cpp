@@ -40,7 +40,7 @@ void describe_places(RecordReader& reader, std::vector<SequenceRecord>& sequence
 
 RunRecord run_record_from(const ordered_json& json, const std::string& file) {
   auto run = read_as<RunRecord>(json, file);
-  // Earlier versions did not list the cells: there each sequence goes with each method.
+  // Earlier versions did not list the cells: they ran each sequence with each method.
   if (!json.contains("cells")) run.cells = run.all_cells();
   return run;
 }

@@ -9,7 +9,7 @@
 
 namespace raymoval {
 
-/// The content of run.json without its checksum. @param file stands in messages
+/// Reads the content of run.json without its checksum. @param file for messages
 /// @throws FieldError naming the file and the field
 RunRecord run_record_from(const nlohmann::ordered_json& json, const std::string& file);
 
@@ -21,7 +21,7 @@ void write_run_record(const std::filesystem::path& file, const RunRecord& run);
 ResultsRecord read_results(const std::filesystem::path& file);
 void write_results(const std::filesystem::path& file, const ResultsRecord& results);
 
-/// The content of results.json as it stands in the file, without its checksum.
+/// The content of results.json as in the file, without its checksum.
 /// @throws DataError as `read_results`
 std::string read_results_text(const std::filesystem::path& file);
 

@@ -87,8 +87,8 @@ void score_masks(ScoredSequence& scored, const MethodTask& task, const MethodAns
   cell.reliability = scores.reliability;
 }
 
-/// What a control answers is known from the labels, so no process is started and no scan is read
-/// for it. It is scored like any other answer.
+/// The masks of a control follow from the labels, so no process is started and no scan is read.
+/// They are scored like any other masks.
 MethodAnswer answer_of_control(ScoredSequence& scored, KnownAnswer known) {
   const auto started = std::chrono::steady_clock::now();
   const MaskStore& moving = scored.moving_points();
@@ -111,8 +111,8 @@ MethodAnswer answer_of_method(ScoredSequence& scored, const MethodTask& task) {
   return known ? answer_of_control(scored, *known) : run_method_apart(task);
 }
 
-/// Says what of an external method is no longer as the key says, since anybody may change its
-/// files; else empty.
+/// The difference of an external method, whose files may change at any time, from the cell's key;
+/// else empty.
 std::string changed_program(const MethodEntry& entry) {
   if (entry.manifest.empty()) return "";
   try {
@@ -127,7 +127,7 @@ std::string changed_program(const MethodEntry& entry) {
   }
 }
 
-/// Scores an answer. A fault of the method or the data makes the cell one without a result.
+/// Scores an answer. After a fault of the method or the data, the cell has no result.
 void score_answer(ScoredSequence& scored, const MethodTask& task, const MethodAnswer& answer,
                   Cell& cell) {
   try {
@@ -190,7 +190,7 @@ Cell execute_cell(ScoredSequence& scored, const MethodTask& task,
     return cell;
   }
   score_answer(scored, task, answer, cell);
-  // A disk that is full is no fault of the method: it ends the run.
+  // A full disk is not a fault of the method: it ends the run.
   if (cell.ok() && !removals.empty()) write_cell_removals(removals, task, answer);
   return cell;
 }

@@ -11,21 +11,21 @@
 
 namespace raymoval {
 
-/// What the cell's key is made from. @throws DataError if the data cannot be read
+/// The inputs of the cell's key. @throws DataError if the data cannot be read
 CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request);
 
 /// The key that a cell of this program has now. @throws DataError if the data cannot be read
 std::string current_key(ScoredSequence& scored, const MethodRequest& request);
 
-/// Runs the method, checks its answer and scores it. It does not throw for a fault of the method or
-/// the data: that is a cell with a status and a reason.
+/// Runs the method, checks its answer and scores it. A fault of the method or the data does not
+/// throw, but gives a cell with a status and a reason.
 /// @param removals folder for label files; none are written if it is empty
 /// @throws Cancelled, or DataError if the removals cannot be written
 Cell execute_cell(ScoredSequence& scored, const MethodTask& task,
                   const std::filesystem::path& removals = {});
 
-/// Runs the method, in this process or in a child. The status is only kOk if the method and what it
-/// read are those of the key. @throws Cancelled
+/// Runs the method, in this process or in a child. The status is only kOk if the method and the
+/// data that it read are those of the key. @throws Cancelled
 MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task);
 
 /// The cell of a sequence that cannot be read: status "bad_data".

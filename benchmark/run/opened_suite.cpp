@@ -16,7 +16,7 @@
 namespace raymoval {
 namespace {
 
-/// The sequences' names. Scenes are not generated for it: what is wrong with names shows before.
+/// The sequences' names. Scenes are not generated, so that wrong names are reported before.
 std::vector<std::string> sequence_names(const Suite& suite) {
   std::vector<std::string> names;
   for (const SequenceRequest& request : suite.sequences) {
@@ -54,7 +54,7 @@ void check_same_data(OpenedSuite& suite, std::size_t sequence, const RunRecord& 
   try {
     (void)scored.data_fingerprint();
   } catch (const DataError&) {
-    return;  // Its cells say so.
+    return;  // Its cells get the error.
   }
   refuse_other_results(suite.options().out,
                        why_other_data(present, name, scored.data_fingerprint()));
@@ -77,7 +77,8 @@ OpenedSuite::OpenedSuite(const Suite& suite, const RunOptions& options)
         options.jobs, suite.threads));
   }
   for (const ProtocolRequest& request : suite.protocols) {
-    (void)make_protocol(request.protocol, request.options);  // Bad options show before the work.
+    (void)make_protocol(request.protocol,
+                        request.options);  // Bad options are reported before the work.
   }
   cells_ = cell_names(suite);
   selected_ = select_cells(options.selection, selection_names(cells_));
@@ -111,7 +112,7 @@ ScoredSequence OpenedSuite::take_sequence(std::size_t sequence) {
     kept.reset();
     return scored;
   }
-  // Cells that run at once have one live line, which tells of all of them.
+  // Cells that run at once share one live line.
   Progress* progress = options_.jobs > 1 ? nullptr : options_.progress;
   return {sequences_[sequence], suite_.protocols, threads_, progress};
 }

@@ -13,16 +13,16 @@
 
 namespace raymoval {
 
-/// Which cell of a suite is meant, by the numbers of its sequence and method.
+/// Identifies a cell of a suite by the numbers of its sequence and method.
 struct CellIndex {
   std::size_t sequence = 0;
   std::size_t method = 0;
 };
 
-/// A suite whose sequences are opened, and which of its cells are selected.
+/// A suite with opened sequences and a selection of cells.
 class OpenedSuite {
  public:
-  /// Both arguments have to live as long as this object.
+  /// Both arguments must outlive this object.
   /// @throws UsageError, DataError or ConfigurationError if the suite cannot be run
   OpenedSuite(const Suite& suite, const RunOptions& options);
 
@@ -35,7 +35,7 @@ class OpenedSuite {
 
   /// All cells, sequence after sequence.
   [[nodiscard]] const std::vector<CellName>& cells() const { return cells_; }
-  /// Where a cell stands in `cells`.
+  /// The index of a cell in `cells`.
   [[nodiscard]] std::size_t place(CellIndex cell) const {
     return cell.sequence * suite_.methods.size() + cell.method;
   }
@@ -45,21 +45,21 @@ class OpenedSuite {
   }
 
   [[nodiscard]] bool is_selected(CellIndex cell) const { return selected_[place(cell)]; }
-  /// Selects this cell and leaves all others alone, also those that are in the folder.
+  /// Selects only this cell. Other cells are not used, even if they are in the folder.
   void select_only(CellIndex cell);
   [[nodiscard]] bool is_alone() const { return alone_; }
-  /// Whether anything of a sequence is to be run or may be there. Else its data is not read.
+  /// Whether a cell of the sequence must be run or may be stored. Otherwise its data is not read.
   [[nodiscard]] bool is_needed(std::size_t sequence) const;
 
-  /// The sequence with its protocols: what `give_back` left, which knows its fingerprint already,
-  /// or a new one.
+  /// The sequence with its protocols: the one of `give_back`, which already has its fingerprint, or
+  /// a new one.
   [[nodiscard]] ScoredSequence take_sequence(std::size_t sequence);
   void give_back(std::size_t sequence, ScoredSequence scored);
 
-  /// What the run folder holds of a cell. @throws DataError if the data cannot be read
+  /// The state of a cell in the run folder. @throws DataError if the data cannot be read
   [[nodiscard]] StoredCell stored_cell(ScoredSequence& scored, CellIndex cell) const;
 
-  /// The cell with the name "SEQUENCE/NAME", which takes no reading of data, or with this key.
+  /// The cell with the name "SEQUENCE/NAME", or with this key, for which the data is read.
   /// @throws UsageError if there is none
   [[nodiscard]] CellIndex find(const std::string& wanted);
 
@@ -80,12 +80,12 @@ class OpenedSuite {
 
 /// A run folder to which a run is added.
 struct JoinedFolder {
-  RunRecord record;      ///< What run.json is to say.
-  EarlierCells earlier;  ///< They are not read for a run that `is_alone`.
+  RunRecord record;      ///< The content for run.json.
+  EarlierCells earlier;  ///< Not read for a run that `is_alone`.
 };
 
-/// Checks that the run and what its folder holds belong together, and reads the cells of earlier
-/// runs. @throws UsageError if they do not belong together; DataError
+/// Checks that the run and the content of its folder belong together, and reads the cells of
+/// earlier runs. @throws UsageError if they do not belong together; DataError
 JoinedFolder join_folder(OpenedSuite& suite);
 
 }  // namespace raymoval

@@ -9,7 +9,7 @@
 namespace raymoval {
 namespace {
 
-/// Looks into the run folder whether a cell is there already, with its repeats.
+/// Looks up a cell and its repeats in the run folder.
 void look_for_cell(const OpenedSuite& suite, ScoredSequence& scored, CellIndex index,
                    PlannedCell& planned) {
   const StoredCell stored = suite.stored_cell(scored, index);

@@ -11,7 +11,7 @@
 
 namespace raymoval {
 
-/// What a run would do with a cell.
+/// The planned action of a run for a cell.
 struct PlannedCell {
   CellName cell;
   std::string key = {};               ///< Empty if the sequence cannot be read.
@@ -19,19 +19,19 @@ struct PlannedCell {
   std::filesystem::path folder = {};  ///< Within the run folder.
   std::size_t scans = 0;
   bool to_run = true;
-  std::string why = {};  ///< Why it has to be run, or why it is not selected.
+  std::string why = {};  ///< Why it must be run, or why it is not selected.
 };
 
-/// What a run would do.
+/// The planned actions of a run.
 struct SuitePlan {
-  std::vector<PlannedCell> cells;     ///< Those of the suite, in their order.
+  std::vector<PlannedCell> cells;     ///< The cells of the suite, in their order.
   std::vector<CellName> earlier;      ///< Cells of earlier runs that stay in the tables.
   std::vector<std::string> left_out;  ///< Other cells of earlier runs, each with the reason.
-  std::string refused;                ///< Why the run would be refused; empty if it would not.
+  std::string refused;                ///< Why the run would be refused; else empty.
 };
 
-/// Tells what `run_suite` would do. Nothing is run and nothing is written, but simulated scenes go
-/// to the cache. Without `options.out` every cell is to be run.
+/// Plans the actions of `run_suite`. No method is run, and only simulated scenes are written, to
+/// the cache. Without `options.out`, every cell must be run.
 SuitePlan plan_suite(const Suite& suite, const RunOptions& options);
 
 }  // namespace raymoval

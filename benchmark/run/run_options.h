@@ -9,21 +9,22 @@
 
 namespace raymoval {
 
-/// How a suite is run, besides what it runs.
+/// How a suite is run.
 struct RunOptions {
-  std::filesystem::path out;   ///< Run folder; it is made if it is missing.
+  std::filesystem::path out;   ///< Run folder; made if it is missing.
   bool keep_removals = false;  ///< Whether label files are kept beside each cell.
-  bool confidence = false;     ///< Whether methods are asked how sure they are of each point.
+  bool confidence = false;     ///< Whether methods give confidences.
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
-  /// Whether each method runs in a child process, with the suite's limits. The child is this very
-  /// program, which has to know `kMethodCommand` (benchmark/process/method_process.h).
+  /// Whether each method runs in a child process, with the suite's limits. The child is this
+  /// program, which must support `kMethodCommand` (benchmark/process/method_process.h).
   bool isolate = false;
-  /// So many cells run at once, each with one thread. Their times are marked as taken side by side.
+  /// Number of cells that run at once, each with one thread if there are several. Their times are
+  /// marked as taken side by side.
   int jobs = 1;
   CellSelection selection = {};
-  bool collect = false;  ///< Whether nothing is run, and results are made of the cells there are.
-  /// Whether results of another suite or on other data give way; else the run is refused.
+  bool collect = false;  ///< Whether results are made of the stored cells only.
+  /// Whether results of another suite or other data are replaced; else the run is refused.
   bool overwrite = false;
 };
 

@@ -13,7 +13,7 @@
 namespace raymoval {
 namespace {
 
-/// The results of all cells that belong to the folder and are there.
+/// The results of all stored cells that belong to the folder.
 ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& folder,
                                 const std::vector<FinishedCell>& finished, RunSummary& summary) {
   ResultsRecord results{folder.record};
@@ -37,7 +37,7 @@ ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& fo
   return results;
 }
 
-/// A file system without locks is used all the same; then the user has to see to it.
+/// A file system without locks is used too; then the user must prevent parallel runs.
 void say_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
   if (lock.is_held()) return;
   suite.say("warning: the file system of " + suite.options().out.string() +
@@ -45,8 +45,8 @@ void say_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
             "before this one has ended.");
 }
 
-/// Does the work of a run. If its folder was moved away, this is what an error says, whatever could
-/// not be written for it.
+/// Does the work of a run. If its folder was moved, any write error is reported as the moved
+/// folder.
 template <class Work>
 void work_in_folder(const std::filesystem::path& out, Work&& work) {
   try {

@@ -14,7 +14,7 @@
 namespace raymoval {
 namespace {
 
-/// What a result holds must be listed by its protocol, or nobody could say what it is.
+/// The protocol must list all rates and counts of its result, so that they have a description.
 void check_is_listed(const ProtocolResult& result, const ProtocolEntry& entry) {
   const auto check = [&](const std::string& name, const auto& specs) {
     for (const auto& spec : specs) {
@@ -144,7 +144,8 @@ void ScoredSequence::open_protocols() {
   const auto open = [&](OpenedProtocol& opened) {
     if (opened.scorer == nullptr) opened.scorer = opened.protocol->open(input());
   };
-  // Of several threads that need all of them, each first opens those that no other one does.
+  // If several threads open the protocols, each thread first opens protocols that no other thread
+  // opens.
   for (OpenedProtocol& opened : protocols_) {
     const std::unique_lock lock(*opened.making, std::try_to_lock);
     if (lock.owns_lock()) open(opened);

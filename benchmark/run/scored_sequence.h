@@ -20,18 +20,18 @@
 
 namespace raymoval {
 
-/// What an answer scores on a sequence.
+/// The scores of an answer on a sequence.
 struct SequenceScores {
   std::vector<ProtocolResult> protocols;  ///< In the order of the sequence's protocols.
   std::vector<ColumnValue> columns;       ///< By class, range and height.
-  std::optional<Reliability> reliability = std::nullopt;  ///< If there is a confidence.
+  std::optional<Reliability> reliability = std::nullopt;  ///< Set if there are confidences.
 };
 
 /// A warning if methods would remove static points because the poses do not fit; else empty.
 std::string pose_fit_line(const std::optional<PoseFitRecord>& fit);
 
-/// An opened sequence with the protocols that score on it. What a protocol derives from scans and
-/// labels is built when first needed, then shared by all methods. Once the fingerprint is known,
+/// An opened sequence with the protocols that score on it. Data that a protocol derives from scans
+/// and labels is built at the first use, then shared by all methods. Once the fingerprint is known,
 /// cells may be scored on several threads at once.
 class ScoredSequence {
  public:
@@ -47,30 +47,30 @@ class ScoredSequence {
   [[nodiscard]] const std::string& protocol_name(std::size_t i) const { return protocols_[i].name; }
   [[nodiscard]] const Protocol& protocol(std::size_t i) const { return *protocols_[i].protocol; }
 
-  /// Hash of all that methods and protocols read; computed once. @throws DataError
+  /// Hash of all data that methods and protocols read; computed once. @throws DataError
   const std::string& data_fingerprint();
 
-  /// How well the poses fit the scans; nothing if no two scans overlap enough to tell.
+  /// How well the poses fit the scans; no value if no two scans overlap enough.
   /// @throws DataError if a scan cannot be read; Cancelled
   [[nodiscard]] std::optional<PoseFitRecord> measure_pose_fit(
       const std::atomic<bool>* cancel) const;
 
-  /// The masks of an answer that removes exactly the moving points, from the reading that made the
+  /// The masks of an answer that removes exactly the moving points, read together with the
   /// fingerprint. Their sizes are those of the scans. @throws DataError as `data_fingerprint`
   [[nodiscard]] const MaskStore& moving_points();
 
-  /// What of the data was not the same whenever it was read, by this object or by a method in a
-  /// process of its own; empty: nothing.
-  /// @param loaded by the method; null: it ran in this process
+  /// The part of the data that changed between two readings, by this object or by a method in its
+  /// own process; empty if none.
+  /// @param loaded the data that the method read; null if it ran in this process
   [[nodiscard]] std::string data_change(const LoadedData* loaded);
 
-  /// Builds what protocols derive from scans and labels, where that was not done yet. Afterwards
-  /// several threads may score at a time.
+  /// Builds the data that protocols derive from scans and labels, if not done yet. Afterwards
+  /// several threads may score at once.
   /// @throws DataError if there is nothing to score against
   void open_protocols();
 
   /// Scores `masks` by all protocols and by columns. All of them read a scan together.
-  /// @param cancel ends the scoring when it is set; null: nothing does
+  /// @param cancel ends the scoring when it is set; may be null
   /// @param confidence of the method that gave the masks; may be empty
   /// @throws DataError, MethodError as the protocols; Cancelled
   SequenceScores score(const MaskStore& masks, const std::atomic<bool>* cancel = nullptr,
@@ -82,7 +82,7 @@ class ScoredSequence {
   /// Which points of the scans are not found again in a cleaned cloud (see `masks_of_cloud`).
   [[nodiscard]] const MaskStore& cloud_masks(const CloudEstimate& cloud) const;
 
-  /// Figures on the removed points by class, range and height.
+  /// Shares of removed points by class, range and height.
   [[nodiscard]] std::vector<ColumnValue> columns(const MaskStore& masks) const;
 
  private:
@@ -90,7 +90,7 @@ class ScoredSequence {
     std::string name;
     std::unique_ptr<Protocol> protocol;
     std::unique_ptr<Scorer> scorer;  ///< Null until it is first needed.
-    /// Held while it is made, for cells that run at once.
+    /// Held while the scorer is made, for cells that run at once.
     std::unique_ptr<std::mutex> making = std::make_unique<std::mutex>();
   };
   [[nodiscard]] EvaluationInput input() const;
@@ -102,7 +102,7 @@ class ScoredSequence {
   Progress* progress_;
   std::string fingerprint_;
   MaskStore moving_points_;
-  LoadedData loaded_;  ///< What the fingerprint is of.
+  LoadedData loaded_;  ///< The data of the fingerprint.
   std::vector<OpenedProtocol> protocols_;
 };
 

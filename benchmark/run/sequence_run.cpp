@@ -20,7 +20,7 @@
 namespace raymoval {
 namespace {
 
-// A method that needs more than this for a scan is no use; a short sequence gets time to start.
+// A slower method is of no use. A short sequence has time for the start.
 constexpr double kSecondsPerScan = 30.0;
 constexpr double kLeastSeconds = 600.0;
 
@@ -64,7 +64,7 @@ void run_side_by_side(int jobs, std::size_t count, const std::function<void(std:
   };
   {
     const std::size_t threads = std::min(static_cast<std::size_t>(std::max(jobs, 1)), count);
-    std::vector<std::jthread> others;  // They are waited for at their end.
+    std::vector<std::jthread> others;  // Joined at the end of the block.
     while (others.size() + 1 < threads) others.emplace_back(work_off);
     work_off();
   }
@@ -178,9 +178,8 @@ void SequenceRuns::fail_all(std::size_t sequence, const std::string& reason) {
   }
 }
 
-/// Says what a reader has to know of the data: how it was opened, which scans are lost, that
-/// methods take their bins from an estimated sensor, that up is not z, and which points no method
-/// sees.
+/// Logs facts about the data: how it was opened, lost scans, an estimated sensor for the methods'
+/// bins, an up direction other than z, and points that no method sees.
 void SequenceRuns::describe(std::size_t number) {
   const Sequence& sequence = suite_.sequences()[number];
   for (const std::string& line : opening_lines(sequence)) suite_.say(sequence.name + ": " + line);
@@ -275,7 +274,8 @@ std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, Cell
   }
   const std::string& key = finished_[suite_.place(index)].cell->key;
   const RepeatRecord repeat{key, round, mask_digest(answer.masks), *measured};
-  // One that removed other points fails its cell now, and not again when the next run does well.
+  // A repeat with other removed points fails its cell in this run. It is not stored, so that it
+  // does not fail the next run.
   if (repeat.digest == finished_[suite_.place(index)].cell->masks->digest) {
     suite_.store().keep_repeat(suite_.name(index), repeat);
   }
@@ -291,7 +291,7 @@ void SequenceRuns::fail_repeat(CellIndex index, int round, CellStatus status,
   summary_.failures.push_back(cell.title() + ": " + cell.reason);
 }
 
-/// Shows on the live line what is running.
+/// Shows a running cell on the live line.
 void SequenceRuns::show_running(CellIndex index, const std::string& round) {
   Progress* progress = suite_.options().progress;
   if (progress == nullptr) return;
@@ -305,7 +305,7 @@ void SequenceRuns::show_running(CellIndex index, const std::string& round) {
                                     finished_.size(), cell.name, cell.sequence, round));
 }
 
-/// Takes from the live line of cells that run at once what runs no more. The caller has the lock.
+/// Removes finished cells from the shared live line. The caller holds the lock.
 void SequenceRuns::show_stopped(CellIndex index) {
   Progress* progress = suite_.options().progress;
   if (progress == nullptr || !is_side_by_side()) return;

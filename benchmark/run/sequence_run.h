@@ -18,31 +18,31 @@
 namespace raymoval {
 
 /// Does `work(i)` for each i from 0 to count - 1, on `jobs` threads of which the caller's is one. A
-/// thread that is free takes the lowest number that is left. After an exception nothing more is
-/// taken; that of the lowest number is thrown when all threads have ended.
+/// free thread takes the lowest remaining number. After an exception no further number is taken;
+/// the exception of the lowest number is thrown when all threads have ended.
 void run_side_by_side(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// A cell of a run with the further runs of its method.
 struct FinishedCell {
-  std::optional<Cell> cell = std::nullopt;  ///< No value if it was not run and is not there.
+  std::optional<Cell> cell = std::nullopt;  ///< No value if it was neither run nor stored.
   std::vector<Measurement> repeats = {};
 };
 
-/// Runs the cells of a suite, sequence after sequence, and puts them into the run folder. With
-/// `RunOptions::jobs` several run at once: a job that is free takes the next cell, also of the next
+/// Runs the cells of a suite, sequence after sequence, and stores them in the run folder. With
+/// `RunOptions::jobs`, several run at once: a free job takes the next cell, also of the next
 /// sequence.
 class SequenceRuns {
  public:
-  /// Both have to live as long as this object.
+  /// Both must outlive this object.
   SequenceRuns(OpenedSuite& suite, JoinedFolder& folder);
 
-  /// Runs those cells that are not there yet. @throws Cancelled; DataError if results cannot be
+  /// Runs the cells that are not stored yet. @throws Cancelled; DataError if results cannot be
   /// written
   void run();
   /// The same for one sequence, one cell after the other.
   void run(std::size_t sequence);
 
-  /// What came of the cells, in the order of `OpenedSuite::cells`.
+  /// The finished cells, in the order of `OpenedSuite::cells`.
   [[nodiscard]] const std::vector<FinishedCell>& finished() const { return finished_; }
   /// How many cells there are and which of them failed.
   [[nodiscard]] const RunSummary& summary() const { return summary_; }
@@ -50,7 +50,7 @@ class SequenceRuns {
   void check_any_readable() const;
 
  private:
-  /// A sequence that jobs share. It is opened by the first that needs it, and goes with the last.
+  /// A sequence that jobs share. The first job that needs it opens it; the last one releases it.
   struct SharedSequence {
     std::mutex mutex;
     bool is_opened = false;
@@ -62,15 +62,15 @@ class SequenceRuns {
   void run_job(SharedSequence& shared, CellIndex index);
   /// @return null if there is nothing to do
   std::shared_ptr<ScoredSequence> open_shared(SharedSequence& shared, std::size_t sequence);
-  /// What run.json has of the poses of the same data. @return nothing if it was not measured
+  /// The pose fit of the same data in run.json. @return no value if it was not measured
   [[nodiscard]] std::optional<PoseFitRecord> known_pose_fit(const std::string& sequence,
                                                             const std::string& fingerprint);
   /// Puts the fingerprint into run.json. @return false if the data cannot be read
   bool read_data(ScoredSequence& scored, std::size_t sequence);
-  /// Its cells fail, in the tables at least: results that were stored before stay.
+  /// Fails all cells of the sequence in the tables. Stored results are not changed.
   void fail_all(std::size_t sequence, const std::string& reason);
   void describe(std::size_t sequence);
-  /// Whether the method may run, and what is stored of it may be replaced.
+  /// True if this cell is selected and may be run, so that its stored result may be replaced.
   [[nodiscard]] bool may_run(CellIndex index) const;
   void run_cell(ScoredSequence& scored, CellIndex index);
   /// Marks times that were taken while other cells ran.
@@ -86,7 +86,8 @@ class SequenceRuns {
   OpenedSuite& suite_;
   JoinedFolder& folder_;
   CellLines lines_;
-  std::mutex mutex_;  ///< Of what jobs share: all below, run.json, and what is shown.
+  std::mutex
+      mutex_;  ///< Guards the data that jobs share: all members below, run.json and the progress.
   std::set<std::string> running_;
   std::vector<FinishedCell> finished_;  ///< Each place belongs to the job that has the cell.
   RunSummary summary_;

@@ -12,7 +12,7 @@
 namespace raymoval {
 namespace {
 
-/// The names of units in small letters. Each has a factor that turns it into the option's unit.
+/// Names of units in small letters, each with the factor to the option's unit.
 using Units = std::vector<std::pair<std::string, double>>;
 
 std::string small_letters(std::string text) {
@@ -22,8 +22,8 @@ std::string small_letters(std::string text) {
   return text;
 }
 
-/// The amount that `text` says, in the option's unit, which it has if it names no unit. No value if
-/// it is no number with a unit, or not greater than 0.
+/// The amount in `text`, in the option's unit, which is also the unit of a plain number. No value
+/// if `text` is not a number with or without a unit, or not greater than 0.
 std::optional<double> parse_amount(const std::string& text, const Units& units) {
   std::size_t end = text.size();
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };

@@ -7,13 +7,13 @@
 
 namespace raymoval {
 
-/// Reads an amount of memory in MiB. It may have a unit: "500MiB", "2GiB", "2G" and "2g" count in
+/// Reads an amount of memory in MiB, or in its unit: "500MiB", "2GiB", "2G" and "2g" count in
 /// powers of 1024, "500MB" and "2GB" in powers of 1000.
 /// @param option for the message, such as "--memory-limit"
 /// @throws UsageError that says what can be written
 double parse_memory_mib(const std::string& option, const std::string& text);
 
-/// Reads a time in seconds. It may have a unit: "90s", "5min", "5m", "2h", "1d".
+/// Reads a time in seconds, or in its unit: "90s", "5min", "5m", "2h", "1d".
 /// @throws UsageError that says what can be written
 double parse_seconds(const std::string& option, const std::string& text);
 

@@ -11,7 +11,7 @@
 namespace raymoval {
 namespace {
 
-/// A pattern may describe "SEQUENCE/NAME" or one of the two.
+/// A pattern describes "SEQUENCE/NAME" or one of the two.
 bool fits(const std::string& pattern, const std::string& cell) {
   const std::size_t slash = cell.find('/');
   const auto matches = [&](const std::string& text) {

@@ -6,7 +6,7 @@
 
 namespace raymoval {
 
-/// Which cells of a suite a run is about: all of them by default.
+/// The selected cells of a suite: all by default.
 struct CellSelection {
   std::vector<std::string> only;  ///< Patterns with * and ?; a cell is chosen if one fits it.
   std::size_t shard = 1;          ///< The number of the part, counted from 1.
@@ -15,14 +15,14 @@ struct CellSelection {
   [[nodiscard]] bool everything() const { return only.empty() && shards == 1; }
 };
 
-/// Reads "2/3", the second of three parts. @throws UsageError that says what the form is
+/// Reads "2/3", the second of three parts. @throws UsageError that names the form
 void parse_shard(const std::string& text, CellSelection& selection);
 
-/// Tells for each of the cells whether it is chosen. `--shard` cuts the cells that `--only` leaves
-/// into parts of neighbours, so that a part reads few sequences. Parts differ by at most one cell,
-/// and every cell is in exactly one of them.
+/// Whether each cell is selected. `--shard` divides the cells that `--only` leaves into parts of
+/// neighbours, so that a part reads few sequences. Part sizes differ by at most one cell, and every
+/// cell is in exactly one part.
 /// @param cells "SEQUENCE/NAME"
-/// @param of what the cells belong to, for messages
+/// @param of the owner of the cells, for messages
 /// @throws UsageError if a pattern fits no cell
 std::vector<bool> select_cells(const CellSelection& selection,
                                const std::vector<std::string>& cells,

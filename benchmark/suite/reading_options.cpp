@@ -16,13 +16,13 @@ namespace {
 using Options = SequenceOptions;
 using Text = const std::string&;
 
-/// A text option as it is.
+/// Stores a text option unchanged.
 template <auto Member>
 void set_text(Options& options, Text /*option*/, Text text) {
   options.*Member = text;
 }
 
-/// What `read` gives, whose errors begin with the option.
+/// The result of `read`, whose errors get the option as prefix.
 template <class Read>
 auto in_option(Text option, Read&& read) {
   try {

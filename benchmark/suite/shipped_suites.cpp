@@ -25,7 +25,7 @@ std::vector<fs::path> places_of(const std::string& name) {
     places = {folder.parent_path() / "share/raymoval" / name, folder / "share/raymoval" / name};
   }
   places.push_back(fs::path(RAYMOVAL_INSTALLED_DATA) / name);
-  // The Debian package's folder, whatever prefix the build was configured with.
+  // The Debian package's folder, which does not depend on the install prefix.
   places.push_back(fs::path("/usr/share/raymoval") / name);
   return places;
 }

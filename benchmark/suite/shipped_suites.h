@@ -7,9 +7,9 @@
 
 namespace raymoval {
 
-/// The folder `name` ("suites", "published") of the data that comes with the program. It is looked
-/// for in ../share/raymoval, seen from the folder of an installed program, then in share/raymoval,
-/// where the program was built, then where it was configured to be installed, then in
+/// The folder `name` ("suites", "published") of the data that comes with the program. It is
+/// searched for in ../share/raymoval relative to the folder of an installed program, in
+/// share/raymoval of the build folder, below the configured install prefix, then in
 /// /usr/share/raymoval. Empty if it is in none of these.
 std::filesystem::path shipped_data(const std::string& name);
 
@@ -19,7 +19,7 @@ std::string missing_data(const std::string& name);
 /// Names of the suites that come with the program, sorted.
 std::vector<std::string> shipped_suite_names();
 
-/// The comment at the top of a shipped suite, which says what it is for. Empty if there is none.
+/// The comment at the top of a shipped suite, which describes its purpose. Empty if there is none.
 std::string suite_sentence(const std::string& name);
 
 /// The suite file `name_or_path` if there is such a file, else the shipped suite of that name.

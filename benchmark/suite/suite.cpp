@@ -45,7 +45,8 @@ void check_cell_name(const std::string& name) {
       "'. Leave one out, or give it another name with \"as\" in a suite file or --as.");
 }
 
-/// Puts a '*' behind the name of a variant whose parameters were changed. A name of "as" stays.
+/// Puts a '*' behind the name of a variant whose parameters were changed. A name from "as" is not
+/// changed.
 void mark_changed(MethodRequest& request) {
   const std::string plain = request.method.full_name();
   const std::string base = request.sweep_of.empty() ? request.name : request.sweep_of;
@@ -62,7 +63,7 @@ void check_name_is_free(const Suite& suite, std::size_t count, const std::string
   }
 }
 
-/// "town" of "town:scans=60": a scene that the program brings along.
+/// Whether the path is a built-in scene, such as "town" or "town:scans=60".
 bool is_built_in(const std::string& path) {
   const std::string name = path.substr(0, path.find(':'));
   return contains(scene_names(), name);
@@ -186,7 +187,7 @@ void check_given_once(const std::vector<Setting>& settings) {
   }
 }
 
-/// Suggests the names that a setting may be for and that are near to `given`.
+/// Suggests valid targets of settings that are similar to `given`.
 [[noreturn]] void throw_no_target(const Suite& suite, const std::string& given) {
   std::vector<std::string> names;
   for (const MethodRequest& request : suite.methods) {
@@ -204,12 +205,12 @@ void check_given_once(const std::vector<Setting>& settings) {
                    suggestion(given, names));
 }
 
-/// Values that are each in range may still not fit together, which only a method knows.
-/// @throws ConfigurationError in the method's words
+/// Values that are each in range may still not fit together, which only the method checks.
+/// @throws ConfigurationError of the method
 void check_values_fit(const Suite& suite) {
   for (const MethodRequest& request : suite.methods) {
     const MethodEntry& entry = *request.method.entry;
-    // A control that is given labels, and a program of somebody's, are made where they run.
+    // Controls that need labels and external programs are made where they run.
     if (!entry.needs_truth && entry.manifest.empty()) (void)request.method.make();
   }
 }
@@ -225,7 +226,8 @@ void apply_settings(Suite& suite, const std::vector<Setting>& settings) {
     used[i] = true;
   }
   for (MethodRequest& request : suite.methods) {
-    // The method's own settings first, so that one for a variant or a cell wins in any order.
+    // Settings for a whole method come first, so that one for a variant or a cell wins in any
+    // order.
     for (const bool whole_method : {true, false}) {
       for (std::size_t i = 0; i < settings.size(); ++i) {
         const bool names_method = settings[i].target == request.method.entry->name;

@@ -41,17 +41,18 @@ RangeLimits range_of(const Fields& object) {
                   object.where(), number_text(range.min), number_text(range.max)));
 }
 
-/// Where the paths of a suite file lead.
+/// The folders that paths of a suite file refer to.
 struct Places {
   std::filesystem::path folder;  ///< Of the file.
-  std::string data;              ///< What "{data}" stands for.
+  std::string data;              ///< The value of "{data}".
   bool data_used = false;
 };
 
 constexpr std::string_view kData = "{data}";
 
-/// A path of a suite file: beside the file if it is there, else as it stands. `ROOT:05` names a
-/// part of ROOT, so what follows the last colon does not count; names of built-in scenes stay.
+/// A path of a suite file: beside the file if it exists there, else unchanged. `ROOT:05` is a part
+/// of ROOT, so the text after the last colon is ignored in the check. Names of built-in scenes are
+/// not changed.
 std::string located(const std::string& path, Places& places) {
   if (path.starts_with(kData)) {
     places.data_used = true;
@@ -68,23 +69,23 @@ std::string located(const std::string& path, Places& places) {
   return there ? text : path;
 }
 
-/// "external:PATH" with the path of a manifest beside the suite file, if it is there; the names of
-/// other methods stay.
+/// "external:PATH" with the path of a manifest beside the suite file, if it exists; names of other
+/// methods are not changed.
 std::string located_method(const std::string& name, const Places& places) {
   const auto manifest = external_manifest(name);
   if (!manifest || !has_file(places.folder / *manifest)) return name;
   return "external:" + (places.folder / *manifest).string();
 }
 
-/// The path of a sequence. A scene is only one where no folder of its name stands beside the file.
+/// The path of a sequence.
+/// @throws ConfigurationError if it names both a scene and a folder beside the file
 std::string sequence_path(const std::string& path, Places& places, const std::string& where) {
   const std::string both = scene_or_folder(path, places.folder);
   if (!both.empty()) throw ConfigurationError(where + ": " + both);
   return located(path, places);
 }
 
-/// Takes in the text of a reading option by its key in a file, such as "pose_format" or
-/// "max_gap_s".
+/// Sets a reading option by its key in a file, such as "pose_format" or "max_gap_s".
 void set_option(const std::string& key, const std::string& text, SequenceOptions& options) {
   std::string name = key.ends_with("_s") ? key.substr(0, key.size() - 2) : key;
   std::replace(name.begin(), name.end(), '_', '-');
@@ -126,7 +127,7 @@ SequenceRequest sequence_of(const json& item, Places& places, const std::string&
   return request;
 }
 
-/// Puts the values of a "set" object into `configuration`.
+/// Stores the values of a "set" object in `configuration`.
 void apply_object(const json& object, const std::string& owner, const std::string& where,
                   const std::vector<ParameterSpec>& specs, Configuration& configuration) {
   for (const auto& [key, value] : object.items()) {
@@ -258,7 +259,7 @@ void check_is_utf8(const std::string& text, const std::string& what) {
   }
 }
 
-/// A suite on the user's own data needs its place, and no other suite wants one.
+/// Checks that --data is given exactly if the suite uses "{data}".
 void check_data_given(const Places& places, const std::string& where) {
   if (places.data_used == !places.data.empty()) return;
   throw UsageError(where +

@@ -7,14 +7,15 @@
 
 namespace raymoval {
 
-/// Where a sequence is and how it is opened, as run.json has it.
+/// The place of a sequence and its reading options, in the form of run.json.
 nlohmann::ordered_json to_json(const SequenceRequest& place);
 
-/// Reads it again. @throws nlohmann::json::exception, or UsageError for a text that means nothing
+/// Reads the JSON of `to_json`. @throws nlohmann::json::exception, or UsageError for an unknown
+/// text
 SequenceRequest place_from(const nlohmann::ordered_json& json);
 
 /// Refuses a suite whose paths run.json and the messages to the processes of methods cannot hold:
-/// JSON has no bytes that are not UTF-8, and with others in their place a path leads nowhere.
+/// JSON allows only UTF-8, and a path with replaced bytes would not exist.
 /// @throws UsageError that names the path and the remedy; DataError as `absolute_place`
 void check_paths_fit_json(const Suite& suite);
 

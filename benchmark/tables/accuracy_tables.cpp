@@ -35,7 +35,7 @@ MethodRates outside_rates(const std::vector<std::string>& sequences, const Outsi
   return method;
 }
 
-/// Whether `given` has rates that may stand beside a sequence of the run.
+/// Whether `given` has rates for a sequence of the run.
 bool shares_sequence(const OutsideColumn& given, const RunResults& results) {
   return std::ranges::any_of(results.sequences,
                              [&](const std::string& name) {
@@ -46,7 +46,7 @@ bool shares_sequence(const OutsideColumn& given, const RunResults& results) {
          });
 }
 
-/// What the rates of a table are, below it.
+/// The note below a table that explains its rates.
 std::string rate_words(const RateGrid& grid, const TableOptions& options) {
   std::string text = rate_units_text(grid.rates);
   const bool averages = grid.sequences.size() > 1 || options.layout == TableLayout::kSequenceRows;

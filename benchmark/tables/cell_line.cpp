@@ -29,8 +29,8 @@ std::string rate_piece(const RateSpec& spec, const std::optional<double>& value)
   return spec.name + " " + padded_left(text, full.size());
 }
 
-/// The main rates of a cell: those that methods are ranked by are in `headlines`, what is kept and
-/// removed in `others`, the first protocol's first.
+/// The main rates of a cell: headline rates in `headlines`, rates of kept and removed points in
+/// `others`. Rates of the first protocol come first.
 void collect_rates(const Cell& cell, std::vector<std::string>& headlines,
                    std::vector<std::string>& others) {
   for (const Score& score : cell.scores) {
@@ -72,7 +72,7 @@ std::string CellLines::line(std::size_t number, const Cell& cell, bool kept) con
   if (cell.measured) {
     pieces.push_back(padded_left(fixed_text(1000.0 * cell.measured->mean_seconds, 1), 7) + " ms");
   }
-  for (std::size_t i = 0; i + 1 < others.size(); i += 2) {  // One says little without the other.
+  for (std::size_t i = 0; i + 1 < others.size(); i += 2) {  // One rate alone means little.
     pieces.push_back(others[i] + "  " + others[i + 1]);
   }
   if (headlines.size() > 1) {

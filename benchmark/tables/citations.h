@@ -13,7 +13,7 @@ namespace raymoval {
 /// this project adds nothing, a method without a publication adds a comment.
 class Citations {
  public:
-  /// @param methods lives as long as this object
+  /// @param methods must outlive this object
   explicit Citations(const MethodRegistry& methods);
 
   void add_method(const MethodEntry& entry);

@@ -23,7 +23,7 @@ std::vector<const MethodColumns*> shown_methods(const RunResults& results, bool 
   return shown;
 }
 
-/// "moving-person 63.200": the class of which the smallest share was dealt with rightly.
+/// "moving-person 63.200": the class with the smallest share of correct verdicts.
 std::string worst_class(const MethodColumns& method, const std::string& kind) {
   std::string text = "-";
   double worst = 101.0;
@@ -46,7 +46,7 @@ std::vector<std::string> column_names(const std::vector<const MethodColumns*>& m
   return names;
 }
 
-/// The points that a column is about.
+/// The number of points of a column.
 std::int64_t most_points(const std::vector<const MethodColumns*>& methods,
                          const std::string& name) {
   std::int64_t points = 0;
@@ -54,8 +54,8 @@ std::int64_t most_points(const std::vector<const MethodColumns*>& methods,
   return points;
 }
 
-/// The part that a column is about: "range 0-10 m" for "rejection [range 0-10 m]", and "all" for
-/// "rejection". It has no value for other columns and for classes within a band.
+/// The part of a column: "range 0-10 m" for "rejection [range 0-10 m]", and "all" for "rejection".
+/// It has no value for other columns and for classes within a band.
 std::optional<std::string> part_of(const std::string& column, const std::string& kind) {
   const ColumnName name = parse_column_name(column);
   if (name.kind != kind || (!name.group.empty() && !name.axis.empty())) return std::nullopt;
@@ -117,7 +117,7 @@ TextTable band_table(const std::vector<const MethodColumns*>& methods, const std
   return table;
 }
 
-/// Figures that are neither of a class nor of a band.
+/// Figures for neither a class nor a band.
 TextTable whole_table(const std::vector<const MethodColumns*>& methods) {
   TextTable table{"Columns", "method", {{"", {}}}};
   for (const std::string& name : column_names(methods)) {

@@ -69,7 +69,7 @@ bool only_in_run(const ScoreComparison& score) {
   return score.change == Change::kMoved && score.rates.empty() && !score.reasons.empty();
 }
 
-/// What moved in a score, in words.
+/// The changes of a score, in words.
 std::vector<std::string> moved_parts(const ScoreComparison& score, bool with_counts) {
   std::vector<std::string> parts = score.reasons;
   for (const RateChange& rate : score.rates) {
@@ -89,7 +89,7 @@ std::vector<std::string> sequences_of(const Comparison& comparison) {
 
 // Markdown.
 
-/// Text in which '_' is nothing special either.
+/// Text in which '_' is escaped too.
 std::string markdown_word(const std::string& text) {
   return markdown_text(text, "|<*[`\\&_");
 }
@@ -133,7 +133,7 @@ struct TestCase {
   std::string name;
   Change change = Change::kSame;
   bool skipped = false;
-  std::string text;  ///< What went wrong, or moved.
+  std::string text;  ///< The problem, or the change.
 };
 
 std::string attribute(const char* name, const std::string& value) {
@@ -185,7 +185,7 @@ std::vector<TestCase> sequence_tests(const Comparison& comparison, const std::st
   return tests;
 }
 
-/// What is wrong with a run as a whole: one test that fails for each problem.
+/// The problems of a run as a whole: a failed test for each.
 std::vector<TestCase> run_tests(const Comparison& comparison) {
   std::vector<TestCase> tests;
   for (const ComparisonLine& line : comparison.lines) {

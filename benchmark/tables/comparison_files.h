@@ -8,7 +8,7 @@
 
 namespace raymoval {
 
-/// What was compared with what, for the head of a file.
+/// The two compared runs, for the head of a file.
 struct ComparisonSubject {
   std::string run, reference;  ///< As the user named them.
   ComparisonOptions options;
@@ -19,11 +19,11 @@ const std::vector<std::string>& comparison_formats();
 
 /// The comparison in one of these formats:
 /// - "text": as `comparison_text`;
-/// - "md": a table in Markdown of what is not the same, with a verdict;
+/// - "md": a table in Markdown of the differences, with a verdict;
 /// - "junit": XML with a test suite for each sequence and a test case for each method and protocol.
-///   What is worse has failed, what is not comparable is an error, and what is not compared because
-///   only the run has it is skipped. Problems of the whole run stand in the suite "run", times that
-///   are judged in test cases of their own;
+///   A worse score is a failure, an incomparable one an error, and one that only the run has is
+///   skipped. Problems of the whole run are in the suite "run", judged times in separate test
+///   cases;
 /// - "json": see results/schema/comparison.schema.json.
 /// @throws UsageError suggesting the nearest format
 std::string comparison_in(const std::string& format, const Comparison& comparison,

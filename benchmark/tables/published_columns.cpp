@@ -63,7 +63,7 @@ OutsideColumn& column_of(const std::string& method, const std::string& protocol,
   return columns.back();
 }
 
-/// Why rows of papers may not stand beside a sequence that has their name; empty if they may.
+/// Why rows of papers are not comparable with a sequence of the same name; empty if they are.
 std::string why_not_beside(const PublishedForm& form, const std::string& sequence,
                            const DataRecord* data) {
   const auto known = form.frames.find(sequence);

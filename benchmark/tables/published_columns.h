@@ -31,13 +31,13 @@ struct OutsideColumn {
 /// How papers print the rates of a protocol.
 struct PublishedForm {
   const char* title = "Published";
-  const char* sequence_prefix = "";  ///< Stands before a paper's name in the shipped suites.
+  const char* sequence_prefix = "";  ///< Prefix of a paper's name in the shipped suites.
   /// Frames of the papers' sequences, by the papers' names, where they are known.
   std::map<std::string, std::string> frames = {};
   int decimals = 3;        ///< Digits that are printed.
   bool comparable = true;  ///< Whether all rows are of one kind of data, over which a mean
                            ///< makes sense.
-  const char* note = "";   ///< Stands below the table.
+  const char* note = "";   ///< Text below the table.
   std::vector<const char*> files = {};
 };
 
@@ -46,15 +46,14 @@ const PublishedForm& published_form(const std::string& protocol);
 
 /// The methods of published tables, as columns to set beside a run: Table 2 of the paper, on the
 /// segments of the suite `semantickitti`, the tables of the DynamicMap benchmark, on the sequences
-/// of `kth`, and those of moving-object segmentation. The tables are looked up in the source
-/// folder, else where they were installed.
-/// @throws DataError if they are in neither place
+/// of `kth`, and those of moving-object segmentation. The tables are read from the folder
+/// `shipped_data("published")`.
+/// @throws DataError if there is no such folder
 std::vector<OutsideColumn> published_columns();
 
-/// Sets rows beside those sequences of the run that have the paper's name (with or without the
-/// prefix), frames and number of scans. The papers' data is not at hand, so no fingerprint of it is
-/// known.
-/// @return a line with the reason for each sequence that no row may stand beside
+/// Assigns rows to the sequences of the run that have the paper's name (with or without the
+/// prefix), frames and number of scans. The fingerprint of the papers' data is not known.
+/// @return a line with the reason for each sequence without comparable rows
 std::vector<std::string> set_beside(std::vector<OutsideColumn>& columns, const RunResults& results);
 
 }  // namespace raymoval

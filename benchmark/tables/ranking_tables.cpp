@@ -93,7 +93,7 @@ std::vector<std::string> ranked_methods(const RunResults& results) {
   return methods;
 }
 
-/// Adds a block of ranks, and what changes places in it to the notes if that is asked for.
+/// Adds a block of ranks, and, if requested, notes on the pairs of methods that change places.
 void add_ranks(const RunResults& results, const std::vector<std::string>& sequences,
                const std::string& heading, bool name_pairs, TextTable& table) {
   const std::vector<std::string> methods = ranked_methods(results);

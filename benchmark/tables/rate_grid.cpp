@@ -9,7 +9,7 @@
 namespace raymoval {
 namespace {
 
-/// The rates of a method on a sequence, or the word for their lack, and its time if the grid has
+/// The rates of a method on a sequence, or the status without rates, and its time if the grid has
 /// times.
 std::vector<TableCell> sequence_cells(const RateGrid& grid, const MethodRates& method,
                                       std::size_t sequence, const TableOptions& options) {
@@ -24,7 +24,7 @@ std::vector<TableCell> sequence_cells(const RateGrid& grid, const MethodRates& m
   return cells;
 }
 
-/// The rates of the grid for which the formula's value of the means is shown too.
+/// The rates of the grid for which the formula's value at the mean rates is shown too.
 std::vector<RateSpec> rates_of_means(const RateGrid& grid) {
   std::vector<RateSpec> specs;
   for (const std::string& rate : grid.rates) {
@@ -63,9 +63,9 @@ std::vector<std::string> mean_names(const RateGrid& grid) {
   return names;
 }
 
-/// What a column of a table holds.
+/// The content of a column of a table.
 struct GridColumn {
-  std::string key;  ///< By which a user may sort.
+  std::string key;  ///< The name for sorting.
   bool higher_is_better = true;
 };
 
@@ -85,7 +85,7 @@ std::vector<GridColumn> grid_columns(const RateGrid& grid, bool of_means) {
   return columns;
 }
 
-/// Sorts the rows of a block, best first; those without a value come last.
+/// Sorts the rows of a block, best first; rows without a value come last.
 void sort_block(TextTable& table, const RowRange& block, const std::vector<GridColumn>& columns,
                 const std::string& by) {
   const auto begin = table.rows.begin() + static_cast<std::ptrdiff_t>(block.first);
@@ -144,7 +144,7 @@ TextTable mean_block(const RateGrid& grid, const TableOptions& options) {
   return table;
 }
 
-/// The methods in the order that the options ask for, by their means.
+/// The methods in the order of the options, by their means.
 std::vector<const MethodRates*> sorted_methods(const RateGrid& grid, const TableOptions& options) {
   std::vector<const MethodRates*> order;
   for (const MethodRates& method : grid.methods) order.push_back(&method);
@@ -163,7 +163,7 @@ std::vector<const MethodRates*> sorted_methods(const RateGrid& grid, const Table
   return order;
 }
 
-/// Marks each rate of a row over the methods that stand side by side.
+/// Marks the best methods for each rate of a row with methods side by side.
 void mark_row(TableRow& row, const std::vector<std::string>& rates) {
   for (std::size_t place = 0; place < rates.size(); ++place) {
     std::vector<TableCell*> cells;
@@ -240,7 +240,7 @@ TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
   if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
   for (std::size_t i = 0; i < grid.sequences.size(); ++i) {
     for (const MethodRates& method : grid.methods) {
-      // What others printed stands beside their own sequences only.
+      // Published rates are shown for their own sequences only.
       if (method.printed_digits > 0 && method.by_sequence[i] == nullptr) continue;
       table.rows.push_back(
           {method.heading, sequence_cells(grid, method, i, options), false, grid.sequences[i]});

@@ -29,28 +29,29 @@ struct MethodRates {
 MethodRates method_rates(const RunResults& results, const std::string& method,
                          const std::string& protocol);
 
-/// Sequences x methods x rates. A table is made of it by one layout or the other.
+/// Sequences x methods x rates: the input of both table layouts.
 struct RateGrid {
   std::string title;
   std::vector<std::string> sequences;
   std::vector<MethodRates> methods;
   std::vector<std::string> rates;
   bool ranked = true;         ///< Whether best and second are marked and means are shown.
-  bool timed = false;         ///< Whether times stand beside the rates.
-  const char* no_time = "-";  ///< Stands where a time is not known.
+  bool timed = false;         ///< Whether times are shown beside the rates.
+  const char* no_time = "-";  ///< Text for an unknown time.
 };
 
 /// A row for each method in a block for each sequence, in the order of the grid, without marks.
 TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options);
 
-/// Sorts the rows of each block as the options say; those without a value come last.
+/// Sorts the rows of each block by the options; rows without a value come last.
 void sort_blocks(TextTable& table, const RateGrid& grid, const TableOptions& options);
 
 /// The means of a method's rates over the sequences, and its time if the grid has times.
 TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options);
 
-/// In the layout of the options. By rows: a table with a block for each sequence, then one of the
-/// means. As in the paper's Table 2: a row for each sequence, methods side by side, means below.
+/// The tables in the layout of the options. kMethodRows: a table with a block for each sequence,
+/// then one of the means. kSequenceRows (the paper's Table 2): a row for each sequence, methods
+/// side by side, means below.
 std::vector<TextTable> rate_tables(const RateGrid& grid, const TableOptions& options);
 
 }  // namespace raymoval

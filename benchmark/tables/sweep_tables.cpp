@@ -19,7 +19,7 @@ MethodRates point_rates(const RunResults& results, const SweptCell& point,
   return rates;
 }
 
-/// The rates that say something of a curve. Another mean of the two rates says nothing more.
+/// The rates of a curve. Further means of the two rates add no information.
 std::vector<std::string> curve_rates(const RunResults& results, const std::string& protocol,
                                      const TableOptions& options) {
   std::vector<std::string> rates = chosen_rates(options, results, protocol);
@@ -29,8 +29,8 @@ std::vector<std::string> curve_rates(const RunResults& results, const std::strin
   return rates;
 }
 
-/// Marks the best points of each block by the headline rate. What is kept or what is removed alone
-/// decides nothing.
+/// Marks the best points of each block by the headline rate. The rate of kept or of removed points
+/// alone is no criterion.
 void mark_curve(const RateGrid& grid, TextTable& table) {
   for (const RowRange& block : blocks_of(table)) {
     for (std::size_t place = 0; place < grid.rates.size(); ++place) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostDecimals = 9;
 
-/// All rates that any row has, the usual ones first.
+/// All rates of all rows, the usual ones first.
 std::vector<std::string> known_rates(const RunResults& results) {
   std::vector<std::string> known;
   for (const std::string& protocol : results.protocols) {
@@ -34,7 +34,7 @@ std::vector<std::string> known_rates(const RunResults& results) {
   return known;
 }
 
-/// What a run calls its sequences and methods, and what its sweeps are of.
+/// The names of a run's sequences, methods and swept methods.
 std::vector<std::string> run_names(const RunResults& results) {
   std::vector<std::string> names = results.methods;
   names.insert(names.end(), results.sequences.begin(), results.sequences.end());
@@ -191,7 +191,7 @@ void parse_decimals(const std::string& text, TableOptions& options) {
 }
 
 void parse_display_names(const std::string& text, const RunResults& results, DisplayNames& names) {
-  // Names of sweep points have an '=' themselves: the first after a name of the run counts.
+  // Names of sweep points contain '=': the first '=' after a name of the run separates.
   const std::vector<std::string> known = run_names(results);
   const auto add = [&](const std::string& line, const std::string& where, bool must_be_known) {
     std::size_t equals = line.find('=');
@@ -210,7 +210,7 @@ void parse_display_names(const std::string& text, const RunResults& results, Dis
     }
   };
   if (text.find('=') != std::string::npos) return add(text, "--names '" + text + "'", true);
-  std::size_t number = 0;  // A file may serve several runs: names that this one lacks are no slip.
+  std::size_t number = 0;  // Unknown names are no error: files serve many runs.
   const std::string content = read_text(text);
   for (const std::string_view raw : split(content, '\n')) {
     ++number;

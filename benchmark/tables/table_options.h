@@ -26,7 +26,7 @@ inline constexpr const char* kTimeHeading = "ms per scan";
 /// The column of the most memory, by which rows may be sorted.
 inline constexpr const char* kMemoryColumn = "MiB";
 
-/// How tables of rates are to look.
+/// Options of tables of rates.
 struct TableOptions {
   std::vector<std::string> what = {};  ///< Of `table_kinds`; empty: all.
   TableLayout layout = TableLayout::kMethodRows;
@@ -34,17 +34,17 @@ struct TableOptions {
   std::optional<int> decimals = {};  ///< Of every rate; nothing: as many as the rate's spec says.
   std::map<std::string, int> decimals_of = {};  ///< Of one rate; overrides `decimals`.
   std::string sort = "none";   ///< A rate, kTimeRate, kMemoryColumn, "name" or "none".
-  bool disagreements = false;  ///< Whether each pair that protocols rank otherwise is named.
-  std::vector<OutsideColumn> outside = {};  ///< Set beside the run, see `set_beside`.
+  bool disagreements = false;  ///< Whether pairs that protocols rank differently are listed.
+  std::vector<OutsideColumn> outside = {};  ///< Rates from elsewhere, see `set_beside`.
 };
 
-/// A rate as the options want it: "98.123".
-/// @param printed digits that were printed elsewhere, to which none are added; 0: any number
+/// A rate in the form of the options: "98.123".
+/// @param printed digits of a published rate, which limit the decimals; 0: no limit
 TableCell rate_cell(const TableOptions& options, const std::string& rate, double value,
                     int printed = 0);
 
-/// A mean as the options want it: "98.123", or "98.123 (4/5)" if sequences without a value are left
-/// out; "n/a" if all are. @param of how many sequences there are
+/// A mean in the form of the options: "98.123", or "98.123 (4/5)" if sequences without a value are
+/// left out; "n/a" if all are. @param of the number of sequences
 TableCell mean_cell(const TableOptions& options, const std::string& rate, const Mean& mean,
                     std::size_t of, int printed = 0);
 
@@ -56,19 +56,19 @@ bool is_among(const std::vector<std::string>& names, const std::string& name);
 /// Adds `name` unless it is there.
 void add_once(std::vector<std::string>& names, const std::string& name);
 
-/// The rates of a protocol that are to be shown, without the time.
+/// The shown rates of a protocol, without the time.
 std::vector<std::string> chosen_rates(const TableOptions& options, const RunResults& results,
                                       const std::string& protocol);
 
-/// Whether the time per scan is asked for beside the rates. Without that, tables of rates hold
-/// nothing that differs from run to run.
+/// Whether the time per scan is shown beside the rates. Without it, tables of rates do not differ
+/// from run to run.
 bool shows_time(const TableOptions& options);
 
-/// @throws UsageError if the run has no such rate, or sorting by it makes no sense
+/// @throws UsageError if the run lacks a rate, or cannot sort by one
 void check_rates(const TableOptions& options, const RunResults& results);
 
-/// The methods, best first by their mean over these sequences, as displayed, of what
-/// `TableOptions::sort` names. Those without a value come last.
+/// The methods, best first by the displayed mean of `TableOptions::sort` over these sequences.
+/// Methods without a value come last.
 std::vector<std::string> methods_sorted_by(const RunResults& results,
                                            const std::vector<std::string>& sequences,
                                            const std::string& column);
@@ -76,21 +76,21 @@ std::vector<std::string> methods_sorted_by(const RunResults& results,
 /// The same over all sequences by the main rate of the first protocol.
 std::vector<std::string> methods_best_first(const RunResults& results);
 
-/// Puts all that is listed by method into that order, the cells within each sequence.
+/// Sorts all lists of methods by that order, and the cells within each sequence.
 void sort_results(const std::string& column, RunResults& results);
 
 /// Reads "2" or "F1=3" into the options. @throws UsageError
 void parse_decimals(const std::string& text, TableOptions& options);
 
-/// What sequences and methods are called in tables, by their names in the run.
+/// The names of sequences and methods in tables, by their names in the run.
 using DisplayNames = std::map<std::string, std::string>;
 
 /// Reads "NAME=SHOWN", or the lines of the file `text` in that form ('#' starts a comment).
 /// @throws UsageError, DataError
 void parse_display_names(const std::string& text, const RunResults& results, DisplayNames& names);
 
-/// Gives sequences, methods and outside columns the names that they are shown by.
-/// @throws UsageError if two methods or two sequences would be shown by one name
+/// Applies the displayed names to sequences, methods and outside columns.
+/// @throws UsageError if two methods or two sequences would have one displayed name
 void apply_display_names(const DisplayNames& names, RunResults& results,
                          std::vector<OutsideColumn>& outside);
 

@@ -12,21 +12,21 @@
 namespace raymoval {
 namespace {
 
-/// At most so much of a text that somebody else wrote, cut between characters.
+/// The beginning of a foreign text, cut between characters.
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 200;
   if (text.size() <= kMost) return text;
   return cut_text(text, kMost) + " ...";
 }
 
-/// The last line of `text` that holds anything, without what would steer a terminal.
+/// The last line of `text` that is not empty, without control sequences of terminals.
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   text.erase(0, text.rfind('\n') + 1);
   return printable_text(text);
 }
 
-/// What became of the cells that have no result; none if all have one.
+/// The tables of cells without a result; none if all have one.
 std::vector<TextTable> failure_tables(const RunResults& results) {
   TextTable table{
       "Cells without a result", "cell", {{"", {"status", "reason", "last line printed"}}}};
@@ -47,7 +47,7 @@ std::string side_by_side_note(int cells) {
          " cells ran at once, each with one thread: each is slower than alone.";
 }
 
-/// Time and memory of every method, the least marked.
+/// Time and memory of every method, with the least values marked.
 std::vector<TextTable> cost_tables(const RunResults& results) {
   TextTable table{"Time of each method", "method", {{"", {kTimeHeading, "peak MiB"}}}};
   for (const MethodTimes& times : results.times) {
@@ -66,8 +66,8 @@ std::vector<TextTable> cost_tables(const RunResults& results) {
 }
 
 TextTable stage_table(const MethodTimes& times) {
-  // Each thread books what it did: stages that run on several threads at once can add up to more
-  // than the time that passed, of which they then have no shares.
+  // Stage times are summed over threads. Their sum can exceed the elapsed time; shares are then
+  // shares of the sum.
   double named = 0.0;
   for (const auto& [name, seconds] : times.stages) named += seconds;
   const bool overlap = named > times.seconds;
@@ -111,7 +111,7 @@ std::vector<TextTable> stage_tables(const RunResults& results) {
 
 using MakeTables = std::vector<TextTable>(const RunResults&, const TableOptions&);
 
-/// What tables can be about, in the order in which they are shown.
+/// The kinds of tables, in the order in which they are shown.
 const std::vector<std::pair<std::string, std::function<MakeTables>>>& kinds_of_tables() {
   const auto by_protocol = [](auto& make) -> std::function<MakeTables> {
     return [&make](const RunResults& results, const TableOptions& options) {
@@ -222,7 +222,7 @@ std::string tables_markdown(const RunResults& results, const std::vector<TextTab
 }
 
 std::string tables_latex(const std::vector<TextTable>& tables) {
-  // LaTeX holds a limited number of tables that it has not found a place for.
+  // LaTeX can hold only a limited number of unplaced floats.
   constexpr std::size_t kTablesAtOnce = 8;
   std::string text;
   for (std::size_t i = 0; i < tables.size(); ++i) {

@@ -11,62 +11,62 @@
 namespace raymoval {
 
 /// The tables of a run in the order in which they are shown: for each protocol the rates of every
-/// method (best bold, second underlined) with their means, sweeps, where the protocols' rankings
-/// differ, what the removed points were, the controls, then the time of each stage (the paper's
-/// Table 3).
+/// method (best bold, second underlined) with their means, sweeps, differences of the protocols'
+/// rankings, the content of the removed points, the controls, then the time of each stage (the
+/// paper's Table 3).
 std::vector<TextTable> make_tables(const RunResults& results, const TableOptions& options = {});
 
-/// What `TableOptions::what` may name: "accuracy", "sweeps", ... in the order of the tables.
+/// The values of `TableOptions::what`: "accuracy", "sweeps", ... in the order of the tables.
 std::vector<std::string> table_kinds();
-/// What a document is given unless it asks for more: the accuracy, or the sweeps if there are no
-/// other methods.
+/// The default tables of a document: the accuracy, or the sweeps if all methods are swept.
 std::vector<std::string> latex_kinds(const RunResults& results);
 
-/// Says below a table how the methods in it differ from their variants.
+/// Adds notes below a table on how its methods differ from their variants.
 void add_change_notes(const RunResults& results, TextTable& table);
 
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables);
 std::string tables_latex(const std::vector<TextTable>& tables);
 
-/// The rates of the run's methods by a protocol. By rows: a block for each sequence, with papers'
-/// rows in the blocks of sequences that they have; then, for several sequences, a table of the
-/// means. In the paper's layout one table with both. None without methods or rates.
+/// The rates of the run's methods by a protocol. In the layout kMethodRows: a block for each
+/// sequence, with papers' rows for the same sequence, then, for several sequences, a table of the
+/// means. In the layout kSequenceRows: one table with both. None without methods or rates.
 std::vector<TextTable> accuracy_tables(const RunResults& results, const std::string& protocol,
                                        const TableOptions& options);
 
-/// The same for the controls, without marks and means, and whether they are as they must be.
+/// The same for the controls, without marks and means, and whether they have their expected rates.
 std::vector<TextTable> control_tables(const RunResults& results, const std::string& protocol,
                                       const TableOptions& options);
 
 /// All numbers of the papers that have a sequence of the run, by the protocols of the run.
 std::vector<TextTable> published_tables(const RunResults& results, const TableOptions& options);
 
-/// What the methods that were asked said of points against what came true: a row for each bin of
-/// confidence, a table for each method. None without any.
+/// The methods' confidences against the true shares: a table for each method with confidences, a
+/// row for each bin.
 std::vector<TextTable> reliability_tables(const RunResults& results);
 
 /// The time per scan and the memory of a method, or `none` where they are not known.
 std::vector<TableCell> cost_cells(const RunResults& results, const std::string& method,
                                   const char* none);
 
-/// Whether the controls are as they must be, in words.
+/// Whether the controls have their expected rates, in words.
 std::string controls_text(const RunResults& results);
 
-/// The curve of each sweep by each protocol, of what is kept against what is removed: a row for
+/// The curve of each sweep by each protocol, rate of kept against rate of removed points: a row for
 /// each point, named by its parameters, a block for each sequence and one of the means. The best
 /// values of the headline rate are marked.
 std::vector<TextTable> sweep_tables(const RunResults& results, const TableOptions& options = {});
 
-/// Where the order of the methods depends on the protocol: the rank of each method by the headline
-/// rate of each protocol, and how far it moves from the first protocol to the one where it moves
-/// most. Methods whose values are displayed alike have the same rank. Ranks are by the mean over
-/// the sequences; with `options.disagreements` also by each sequence, and each pair that changes
-/// places is named. None for fewer than two protocols or methods.
+/// How the order of the methods depends on the protocol: the rank of each method by the headline
+/// rate of each protocol, and its largest move from the first protocol to another one. Methods with
+/// equal displayed values have the same rank. Ranks are by the mean over the sequences; with
+/// `options.disagreements` also by each sequence, with a note on each pair that changes places.
+/// None for fewer than two protocols or methods.
 std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options = {});
 
-/// One table of what the removed points were, a row for each method: precision, recall, residue,
-/// preservation, the mover that stays most and the static class that is lost most (of those with
-/// `kNamedClassPoints` points or more). Counts are added up over sequences. None without columns.
+/// One table of the removed points, a row for each method: precision, recall, residue,
+/// preservation, the moving class with the largest remaining share and the static class with the
+/// largest lost share (of classes with at least `kNamedClassPoints` points). Counts are added up
+/// over sequences. None without columns.
 std::vector<TextTable> compact_column_tables(const RunResults& results);
 
 inline constexpr std::int64_t kNamedClassPoints = 100;
@@ -75,9 +75,9 @@ inline constexpr std::int64_t kNamedClassPoints = 100;
 /// and class: a row for each part, a column for each method. None without columns.
 std::vector<TextTable> loss_tables(const RunResults& results);
 
-/// What methods are worth by points: precision, recall, residue, rejection and preservation; then
-/// rejection and preservation by range and by height, a row for each method, a block for all points
-/// and for each class; then the intervals of every rate.
+/// Scores by points: precision, recall, residue, rejection and preservation; then rejection and
+/// preservation by range and by height, a row for each method, a block for all points and for each
+/// class; then the intervals of every rate.
 std::vector<TextTable> full_column_tables(const RunResults& results);
 
 }  // namespace raymoval

@@ -13,8 +13,8 @@
 namespace raymoval::beautymap_method {
 namespace {
 
-/// One pass in which `find(scan, work)` says what does not depend on other scans, on any thread,
-/// and `take(work)` takes it in, in order of time; both are a stage.
+/// One pass, timed as a stage: `find(scan, work)` computes what does not depend on other scans, on
+/// any thread, and `take(work)` uses it, in order of time.
 template <class Work, class Find, class Take>
 void for_scans_in_order(const char* what, const char* stage, const ScanSource& scans,
                         const RunContext& context, Find&& find, Take&& take) {
@@ -30,7 +30,7 @@ void for_scans_in_order(const char* what, const char* stage, const ScanSource& s
       });
 }
 
-/// Where columns begin: at the map's least x and y, or where those of the world do.
+/// The lattice of columns: it begins at the map's least x and y, or at the world's origin.
 Lattice place_lattice(const Parameters& parameters, const ScanSource& scans,
                       const RunContext& context) {
   Lattice lattice(parameters);

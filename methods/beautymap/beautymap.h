@@ -8,16 +8,16 @@
 namespace raymoval {
 namespace beautymap_method {
 
-/// Parameters of BeautyMap; defaults are those of its public program. Their units, ranges and
-/// meanings stand in entry.cpp.
+/// Parameters of BeautyMap; defaults are those of its public program. Units, ranges and meanings
+/// are in entry.cpp.
 struct Parameters {
   // The lattice.
   double column_size = 1.0;
   double slice_height = 0.5;
   double window_side = 40.0;
-  // What protects.
+  // Protection from removal.
   double sight_range = 15.0;
-  // As the public program does it.
+  // Behaviour of the public program.
   bool public_lattice = true;
   bool public_outliers = true;
   bool public_rays = true;
@@ -26,16 +26,17 @@ struct Parameters {
 
 /// M. Jia, Q. Zhang, B. Yang, J. Wu, M. Liu, P. Jensfelt: "BeautyMap: Binary-Encoded Adaptable
 /// Ground Matrix for Dynamic Points Removal in Global Maps", RA-L 2024. The map is a matrix of
-/// columns, each a word whose bits are slices of height above its own foot; so is each scan, by the
-/// feet of the map's columns.
+/// columns. A column is a word whose bits are slices of height above the column's foot. A scan has
+/// the same form, with the feet of the map's columns.
 ///  A. Columns of all points of all scans: foot, slices up to the first gap, parts of slices.
-///  B. What the map has and a scan has not is suspicious, but for
-///     - what is out of the scan's sight (above its steepest ray, above what it sees in the column,
-///       columns far off without ground, and around the sensor),
+///  B. A slice that is occupied in the map and not in a scan is suspicious, except
+///     - slices out of the scan's sight (above its steepest ray, above its points in the column, in
+///       distant columns without ground, and around the sensor),
 ///     - a column's lowest slice,
-///     - what is hidden: the scan has something on the ray to it.
-///     Suspicious slices go, and of the slice below the lowest of them what is above the ground.
-///  C. A point goes if its slice, or its part of a slice, goes by any scan.
+///     - hidden slices: the scan has points on the ray to the slice.
+///     Suspicious slices are removed, and the part above the ground of the slice below the lowest
+///     of them.
+///  C. A point is removed if any scan removes its slice or its part of a slice.
 /// Decisions and deviations from the public program: `notes` of the entry.
 std::unique_ptr<Remover> make_beautymap(const Parameters& parameters);
 

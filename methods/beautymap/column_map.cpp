@@ -86,7 +86,7 @@ std::vector<double> ColumnMap::lowest_around(const Column& column,
 void ColumnMap::place_feet(const LowestPoints& lowest) {
   const int side = parameters_.public_outliers ? kOutlierReach : 2 * kOutlierReach + 1;
   const int all = side * side - (parameters_.public_outliers ? 0 : 1);
-  for (Column& column : columns_) {  // In order, since feet that were moved are neighbours, too.
+  for (Column& column : columns_) {  // In order, because moved feet are neighbours too.
     std::vector<double> around = lowest_around(column, lowest);
     if (static_cast<double>(around.size()) < kOutlierShare * all) continue;
     const double middle = middle_value(around);
@@ -118,7 +118,7 @@ void ColumnMap::add(const std::vector<PlacedPoint>& placed) {
     std::vector<std::uint32_t>& points = columns_[point.column].points;
     const std::size_t first = static_cast<std::size_t>(point.slice) * parts;
     if (points.size() < first + parts) points.resize(first + parts);
-    // A point less than a slice below the foot counts in slice 0, and in its first part.
+    // A point less than one slice below the foot counts in the first part of slice 0.
     ++points[first + static_cast<std::size_t>(std::max<int>(point.part, 0))];
   }
 }
@@ -135,7 +135,7 @@ void ColumnMap::finish() {
     int empty = 0;
     for (int slice = 0; slice < slices; ++slice) {
       if (!holds_points(column, slice)) {
-        // Nothing above a gap of two slices belongs to a column: crowns of trees, bridges.
+        // Points above a gap of two slices do not belong to a column: crowns of trees, bridges.
         if (++empty >= 2 && column.last_slice >= 0) break;
         continue;
       }

@@ -11,12 +11,13 @@
 
 namespace raymoval::beautymap_method {
 
-inline constexpr int kSlices = 31;          ///< Of a column; the last one has all above, too.
-inline constexpr int kTopSlice = 30;        ///< The last one.
+inline constexpr int kSlices = 31;    ///< Of a column; the last slice also holds all higher points.
+inline constexpr int kTopSlice = 30;  ///< The last one.
 inline constexpr int kMostParts = 31;       ///< Of a slice.
-inline constexpr int kHighestSlice = 4095;  ///< Slices are not told apart above.
+inline constexpr int kHighestSlice = 4095;  ///< Higher slices are not distinguished.
 
-/// Columns whose lowest points a column's is compared with; a constant of the public program.
+/// Reach of the neighbour columns with which a column's lowest point is compared; a constant of the
+/// public program.
 inline constexpr int kOutlierReach = 5;
 
 /// The place of a column.
@@ -28,7 +29,7 @@ struct ColumnIndex {
   friend auto operator<=>(const ColumnIndex&, const ColumnIndex&) = default;
 };
 
-/// Where columns, slices and their parts are.
+/// The lattice of columns, slices and their parts.
 struct Lattice {
   explicit Lattice(const Parameters& parameters);
 
@@ -39,19 +40,20 @@ struct Lattice {
         Eigen::Vector3d(world.x() - origin.x(), world.y() - origin.y(), 0.0), 1.0 / column_size);
     return {cell.x(), cell.y()};
   }
-  /// The slice of a height above the column's foot, towards which numbers are cut off: what is
-  /// less than a slice below the foot is in slice 0 as well. Negative: below all slices.
+  /// The slice of a height above the column's foot, rounded towards the foot: a height less than
+  /// one slice below the foot is in slice 0 too. Negative: below all slices.
   [[nodiscard]] int slice_of(double above_foot) const {
     const double slice = above_foot / slice_height;
     return slice < kHighestSlice ? (slice > -1.0 ? static_cast<int>(slice) : -1) : kHighestSlice;
   }
-  /// The part of slice `slice` in which a height above the column's foot is. Negative: below all.
+  /// The part of slice `slice` that holds a height above the column's foot. Negative: below all
+  /// parts.
   [[nodiscard]] int part_of(double above_foot, int slice) const {
     const double part = (above_foot - slice * slice_height) / part_height;
     return part > -1.0 ? std::min(static_cast<int>(part), parts - 1) : -1;
   }
 
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< Where column (0, 0) begins, metres.
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< The corner of column (0, 0), metres.
   double column_size, slice_height, part_height;     ///< Metres.
   int parts;                                         ///< Of a slice.
 };
@@ -66,16 +68,16 @@ using LowestPoints = VoxelMap<double>;
 /// One column of the map.
 struct Column {
   ColumnIndex index;
-  double foot = 0.0;        ///< Where slice 0 begins: the lowest point, unless it was an outlier.
-  bool is_outlier = false;  ///< Whether its lowest point was moved.
+  double foot = 0.0;           ///< Start of slice 0: the lowest point, unless it is an outlier.
+  bool is_outlier = false;     ///< Whether its lowest point was moved.
   std::uint32_t occupied = 0;  ///< Bit i: slice i holds points.
-  int last_slice = -1;         ///< The highest that is a part of the column; above it is a gap.
-  std::uint32_t removed = 0;   ///< Slices of which all points go.
+  int last_slice = -1;         ///< The highest slice of the column; above it is a gap.
+  std::uint32_t removed = 0;   ///< Slices whose points are all removed.
   std::vector<std::uint32_t> points;         ///< Of each part of each slice, `parts` a slice.
-  std::vector<std::uint32_t> removed_parts;  ///< By slice; bit i: the points of part i go.
+  std::vector<std::uint32_t> removed_parts;  ///< By slice; bit i: part i is removed.
 };
 
-/// Where a point is in the map.
+/// The place of a point in the map.
 struct PlacedPoint {
   std::uint32_t column = 0;  ///< Number of the column.
   std::int16_t slice = -1;   ///< Negative: below all slices.
@@ -90,14 +92,14 @@ class ColumnMap {
   /// Steps 1 and 2: columns with their feet.
   ColumnMap(const Parameters& parameters, const Lattice& lattice, const LowestPoints& lowest);
 
-  /// Step 3 for the points of a scan, each of which was one of `lowest`'s.
+  /// Step 3 for the points of a scan, which must be among the points of `lowest`.
   void place(const Scan& scan, std::vector<PlacedPoint>& placed) const;
   /// Counts a scan's points.
   void add(const std::vector<PlacedPoint>& placed);
   /// Steps 4 and 5, once all scans were counted: which slices belong to their columns.
   void finish();
 
-  /// Whether a placed point goes by what was marked.
+  /// Whether a placed point is in a marked slice or part.
   [[nodiscard]] bool is_removed(const PlacedPoint& point) const;
 
   /// The column's number, or `kNone`.
@@ -126,31 +128,31 @@ class ColumnMap {
 
 /// The lowest points of one scan.
 LowestPoints lowest_points(const Scan& scan, const Lattice& lattice);
-/// Adds those of a scan to those of all.
+/// Adds the lowest points of a scan to those of all scans.
 void add_lowest(const LowestPoints& of_scan, LowestPoints& lowest);
 
-/// What one scan says of the map.
+/// The slices and parts that one scan removes from the map.
 struct Marks {
   struct Slices {
     std::uint32_t column;
-    std::uint32_t slices;  ///< Bit i: slice i goes.
+    std::uint32_t slices;  ///< Bit i: slice i is removed.
   };
   struct Parts {
     std::uint32_t column;
     int slice;
-    std::uint32_t parts;  ///< Bit i: part i of the slice goes.
+    std::uint32_t parts;  ///< Bit i: part i of the slice is removed.
   };
   std::vector<Slices> slices;
   std::vector<Parts> parts;
 };
 
-/// Section B of the description: what the map has and the scan has not, where nothing says that the
-/// scan could not see it.
-/// @param placed where the scan's points are in the map
+/// Section B of the description: slices that are occupied in the map and not in the scan, and that
+/// the scan could see.
+/// @param placed the places of the scan's points in the map
 Marks judge(const Parameters& parameters, const ColumnMap& map, const Scan& scan,
             const std::vector<PlacedPoint>& placed);
 
-/// Adds what a scan says to the map.
+/// Adds the marks of a scan to the map.
 void add_marks(const Marks& marks, ColumnMap& map);
 
 }  // namespace raymoval::beautymap_method

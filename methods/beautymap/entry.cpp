@@ -73,7 +73,7 @@ MethodEntry beautymap_entry() {
 }
 )";
   entry.notes = {
-      // The page of the method has all.
+      // The page of the method has all notes.
       "The default is the public program with its quirks, each of which has a switch (public_...).",
       "A scan with nothing in the square around its sensor says nothing; the public program skips "
       "it as well.",

@@ -12,14 +12,14 @@ namespace raymoval::beautymap_method {
 namespace {
 
 // Constants of the public program.
-constexpr double kBlindRange = 2.0;  ///< Columns nearer to the sensor are not judged, metres.
-constexpr int kRayMargin = 3;        ///< What stands so near to the sensor hides nothing, columns.
+constexpr double kBlindRange = 2.0;    ///< Columns nearer to the sensor are not judged, metres.
+constexpr int kRayMargin = 3;          ///< Points this near to the sensor hide nothing, columns.
 constexpr double kGroundShare = 0.85;  ///< Of the points of a slice, counted from below.
 
-/// The columns around the sensor of one scan, with what the scan has in them.
+/// The columns around the sensor of one scan, with the scan's points in them.
 class ScanWindow {
  public:
-  /// @param placed where the scan's points are in the map
+  /// @param placed the places of the scan's points in the map
   ScanWindow(const Parameters& parameters, const ColumnMap& map, const Scan& scan,
              const std::vector<PlacedPoint>& placed);
 
@@ -37,10 +37,10 @@ class ScanWindow {
   [[nodiscard]] const Cell& at(int x, int y) const { return cells_[number(x, y)]; }
   /// The foot of a column of the window, metres; where the map has none, the map's lowest point.
   [[nodiscard]] double foot(int x, int y) const;
-  /// The foot of the sensor's own column, or what stands for it, metres.
+  /// The foot of the sensor's column, or a substitute, metres.
   [[nodiscard]] double center_foot() const { return center_foot_; }
   [[nodiscard]] double sensor_z() const { return sensor_.z(); }  ///< Metres.
-  /// The steepest ray upward that returned, metres of height for each metre of way.
+  /// The steepest upward ray with a return, metres of height per metre of horizontal distance.
   [[nodiscard]] double steepest() const { return steepest_; }
 
  private:
@@ -83,7 +83,7 @@ void ScanWindow::place(const Parameters& parameters) {
     side_ = 2 * center_ + 1;
     return;
   }
-  // B.1: cut off to whole metres, then to columns.
+  // B.1: rounded down to whole metres, then to columns.
   side_ = static_cast<int>(parameters.window_side / lattice.column_size);
   const auto first = [&](double position) {
     const double meters = std::trunc(position) - center_ * lattice.column_size;
@@ -153,14 +153,14 @@ std::uint32_t slices_from(double first) {
   return kAllSlices & ~((std::uint32_t{1} << static_cast<int>(std::max(first, 0.0))) - 1);
 }
 
-/// Whether a column is so near to the sensor that the scan is blind there. Offsets in columns.
+/// Whether a column is within the blind range of the sensor. Offsets in columns.
 bool is_blind(const Parameters& parameters, int dx, int dy) {
   const int reach = static_cast<int>(kBlindRange / parameters.column_size) + 1;
   const int end = parameters.public_lattice ? reach - 1 : reach;
   return dx >= -reach && dx <= end && dy >= -reach && dy <= end;
 }
 
-/// Step 5: slices that the scan may not see, and cannot say anything of.
+/// Step 5: slices out of the scan's sight, which it cannot judge.
 std::uint32_t out_of_sight(const Parameters& parameters, const Lattice& lattice,
                            const ScanWindow& window, int x, int y, bool is_outlier) {
   const int dx = x - window.center(), dy = y - window.center();
@@ -176,7 +176,7 @@ std::uint32_t out_of_sight(const Parameters& parameters, const Lattice& lattice,
   return slices_from(std::trunc(eye + std::sqrt(squared) * rise + 0.5));
 }
 
-/// The way from the sensor's column to another one, a step of one column along the longer axis.
+/// The walk from the sensor's column to another one, in steps of one column along the longer axis.
 class Walk {
  public:
   Walk(int dx, int dy, bool is_public)
@@ -196,7 +196,7 @@ class Walk {
       const int steps = (2 * step * std::abs(whole) + length_) / (2 * length_);
       return whole < 0 ? -steps : steps;
     }
-    const int product = step * whole;  // Cut off downwards.
+    const int product = step * whole;  // Rounded down.
     return product >= 0 ? product / length_ : -((-product + length_ - 1) / length_);
   }
 
@@ -205,7 +205,7 @@ class Walk {
 };
 
 /// The slice, in the column at (x, y), of the ray to slice `slice` of the column at (to_x, to_y),
-/// where it has gone `share` of its way.
+/// at the share `share` of its length.
 double slice_on_ray(const Parameters& parameters, const Lattice& lattice, const ScanWindow& window,
                     int x, int y, double to_foot, int slice, double share) {
   const double h = lattice.slice_height;
@@ -218,8 +218,8 @@ double slice_on_ray(const Parameters& parameters, const Lattice& lattice, const 
   return std::floor((z - window.foot(x, y)) / h);
 }
 
-/// Steps 4 to 6 for one column of the window: slices that the map has and the scan has not, without
-/// those that are out of sight, and without the lowest. Bit i is slice i.
+/// Steps 4 to 6 for one column of the window: slices that are occupied in the map and not in the
+/// scan, without slices out of sight and without the lowest slice. Bit i is slice i.
 std::uint32_t suspicious_slices(const Parameters& parameters, const ColumnMap& map,
                                 const ScanWindow& window, int x, int y) {
   const ScanWindow::Cell& cell = window.at(x, y);
@@ -232,7 +232,7 @@ std::uint32_t suspicious_slices(const Parameters& parameters, const ColumnMap& m
          ~out_of_sight(parameters, map.lattice(), window, x, y, column.is_outlier);
 }
 
-/// Step 7: which of these slices are hidden, because on the way to them the scan has something.
+/// Step 7: the slices among these that are hidden by points of the scan on the ray to them.
 std::uint32_t hidden_slices(const Parameters& parameters, const Lattice& lattice,
                             const ScanWindow& window, int x, int y, std::uint32_t suspicious) {
   const int center = window.center();

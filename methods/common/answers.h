@@ -6,7 +6,7 @@
 
 namespace raymoval {
 
-/// The mask of a scan in which a point goes if `is_removed(voxel)` of its voxel.
+/// The mask of a scan: a point is removed if `is_removed(voxel)` is true for its voxel.
 /// @param voxel_size edge of a voxel of the world's lattice, metres
 template <class IsRemoved>
 Mask mask_by_voxel(const Scan& scan, double voxel_size, IsRemoved&& is_removed) {
@@ -19,8 +19,8 @@ Mask mask_by_voxel(const Scan& scan, double voxel_size, IsRemoved&& is_removed) 
   return mask;
 }
 
-/// The last pass of an offline method, timed as the stage "answers": gives `mask_of(scan)`, which
-/// is found on any thread, to the sink.
+/// The last pass of an offline method, timed as the stage "answers": computes `mask_of(scan)` on
+/// any thread and passes it to the sink.
 template <class MaskOf>
 void answer_scans(const char* what, const ScanSource& scans, RemovalSink& sink,
                   const RunContext& context, MaskOf&& mask_of) {

@@ -3,8 +3,8 @@
 
 namespace raymoval {
 
-/// Coefficients of the odd polynomial that is nearest to the arc tangent from 0 to 45 degrees, that
-/// of the highest power first: its largest error is the smallest, below 4e-7.
+/// Coefficients, highest power first, of the odd polynomial with the smallest maximum error for the
+/// arc tangent from 0 to 45 degrees. The error is below 4e-7.
 inline constexpr float kArcTangentTerms[] = {-0.00405456219F, 0.0218629390F, -0.0559123009F,
                                              0.0964219570F,   -0.139086291F, 0.199465662F,
                                              -0.333298594F,   0.999999344F};

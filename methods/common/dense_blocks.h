@@ -14,9 +14,9 @@ namespace raymoval {
 /// A grid without bounds. It consists of dense blocks of 2^`kBitsXY` x 2^`kBitsXY` x 2^`kBitsZ`
 /// cells, which are found by a hash. The cells of a new block hold `empty`.
 ///
-/// A `Cursor` remembers the block that was used last, or that there is none. The points of a scan
-/// come ring by ring, so the next one mostly lies in the same block and needs no hash. Each thread
-/// has a cursor of its own, and none is used again once another one has made a block.
+/// A `Cursor` stores the last used block, or that there is none. The points of a scan come ring by
+/// ring, so the next point is mostly in the same block and needs no hash. Each thread has its own
+/// cursor. A cursor must not be used again after another cursor has made a block.
 template <class Value, int kBitsXY, int kBitsZ>
 class DenseBlocks {
  public:
@@ -35,7 +35,7 @@ class DenseBlocks {
   static VoxelIndex block_of(const VoxelIndex& cell) {
     return {cell.x() >> kBitsXY, cell.y() >> kBitsXY, cell.z() >> kBitsZ};
   }
-  /// The place of a cell within its block: x runs fastest, then y, then z.
+  /// The index of a cell within its block: x runs fastest, then y, then z.
   static std::size_t offset(const VoxelIndex& cell) {
     constexpr int kMaskXY = kSideXY - 1, kMaskZ = kSideZ - 1;
     return static_cast<std::size_t>(((cell.z() & kMaskZ) << (2 * kBitsXY)) |
@@ -68,7 +68,7 @@ class DenseBlocks {
     return values_.data() + number * kCells;
   }
 
-  /// The place of a cell among those of all blocks, or `kNoSlot` where there is no block.
+  /// The index of a cell among those of all blocks, or `kNoSlot` where there is no block.
   [[nodiscard]] std::size_t slot(const VoxelIndex& cell, Cursor& cursor) const {
     const VoxelKey key = voxel_key(block_of(cell));
     if (key != cursor.key) cursor = {key, block(block_of(cell))};
@@ -81,8 +81,8 @@ class DenseBlocks {
     const std::size_t found = slot(cell, cursor);
     return found == kNoSlot ? empty_ : at(found);
   }
-  /// The place of a cell, which is made if it does not exist. References that earlier calls
-  /// returned may then no longer be valid.
+  /// The index of a cell, which is made if it does not exist. This may invalidate references from
+  /// earlier calls.
   std::size_t make_slot(const VoxelIndex& cell, Cursor& cursor) {
     const VoxelIndex index = block_of(cell);
     const VoxelKey key = voxel_key(index);

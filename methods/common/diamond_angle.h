@@ -5,8 +5,8 @@
 
 namespace raymoval {
 
-/// A number that grows with the azimuth of (x, y) from 0 to 4, a quarter turn each. Where only the
-/// order of directions matters it stands in for an arc tangent.
+/// A number from 0 to 4 that grows with the azimuth of (x, y) by 1 per quarter turn. It replaces an
+/// arc tangent where only the order of directions matters.
 inline double diamond_angle(double x, double y) {
   const double sum = std::abs(x) + std::abs(y);
   if (sum == 0.0) return 0.0;

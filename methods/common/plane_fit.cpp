@@ -9,10 +9,10 @@ namespace {
 
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-/// Normal of points whose covariance was taken apart.
+/// Normal of points from the eigenvectors of their covariance.
 Eigen::Vector3d normal_of(const Solver& solver) {
   const Eigen::Vector3d& spread = solver.eigenvalues();  // Ascending.
-  // Less than single precision can tell from a line, or from a point (1 micrometre).
+  // Single precision cannot distinguish smaller values from a line, or from a point (1 micrometre).
   constexpr double kLine = 1e-7, kPoint = 1e-12;
   if (spread[2] < kPoint) return Eigen::Vector3d::UnitZ();
   if (spread[1] < kLine * spread[2]) {
@@ -23,7 +23,7 @@ Eigen::Vector3d normal_of(const Solver& solver) {
   return solver.eigenvectors().col(0);
 }
 
-/// Turns a normal upward; one that is level within rounding, so that its largest part is positive.
+/// Turns a normal upward. If it is level within rounding, its largest component becomes positive.
 Eigen::Vector3d turned_upward(const Eigen::Vector3d& normal) {
   int decisive = 2;
   if (std::abs(normal.z()) < 1e-9) normal.cwiseAbs().maxCoeff(&decisive);
@@ -33,7 +33,7 @@ Eigen::Vector3d turned_upward(const Eigen::Vector3d& normal) {
 }  // namespace
 
 PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, std::span<const std::uint8_t> chosen) {
-  const Eigen::Vector3d& origin = points.front();  // Near all of them: small numbers to square.
+  const Eigen::Vector3d& origin = points.front();  // Near all points: squares stay small.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   double count = 0.0;

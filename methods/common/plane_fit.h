@@ -17,17 +17,17 @@ struct Plane {
   }
 };
 
-/// A plane, and the points that it was fitted to.
+/// A plane, with statistics of the points that it was fitted to.
 struct PlaneFit {
   Plane plane;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< The points' mean.
   /// Variances of the points along their principal axes, ascending, of the population.
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();
-  double points = 0.0;  ///< How many there were.
+  double points = 0.0;  ///< Number of points.
 };
 
 /// Plane of least squared distance through those `points` that `chosen` marks (at least one). If
-/// they do not span a plane, the most upright one through them.
+/// they do not span a plane, the plane through them with the most upright normal.
 PlaneFit fit_plane(std::span<const Eigen::Vector3d> points, std::span<const std::uint8_t> chosen);
 
 }  // namespace raymoval

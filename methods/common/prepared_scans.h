@@ -9,8 +9,8 @@
 
 namespace raymoval {
 
-/// What a step gets if several scans are at hand at once: one thread, and no times, since what goes
-/// on side by side cannot be told apart.
+/// The context of a step if several scans are processed at once: one thread, and no times, because
+/// the stages of parallel steps cannot be separated.
 inline RunContext for_one_of_many(const RunContext& context) {
   RunContext one = context;
   if (context.threads > 1) one.times = nullptr;
@@ -18,9 +18,9 @@ inline RunContext for_one_of_many(const RunContext& context) {
   return one;
 }
 
-/// One pass in which `prepare(Scan, Work&, context)` says what does not depend on other scans, on
-/// any thread, and `commit(Work&, context)` takes in one scan after the other. With several threads
-/// scans are prepared while those before them are taken in, and the time is booked to `stage`.
+/// One pass: `prepare(Scan, Work&, context)` computes what does not depend on other scans, on any
+/// thread, and `commit(Work&, context)` uses the results in order of the scans. With several
+/// threads, scans are prepared while earlier ones are committed, and the time is booked to `stage`.
 template <class Work, class Prepare, class Commit>
 void for_prepared_scans(const char* what, const char* stage, const ScanSource& scans,
                         const RunContext& context, Prepare&& prepare, Commit&& commit) {

@@ -29,14 +29,14 @@ struct Box {
     high = high.max(other.high);
   }
   [[nodiscard]] Scalar farthest() const { return high[3]; }
-  /// How far the boxes are apart along each axis.
+  /// The distance of the boxes along each axis.
   [[nodiscard]] Eigen::Matrix<Scalar, 3, 1> apart(const Box& other) const {
     const Array gaps = (low - other.high).max(other.low - high).max(Scalar(0));
     return gaps.matrix().template head<3>();
   }
 };
 
-/// The points from `first` to before `last` follow each other and lie in the same cell.
+/// The points from `first` to before `last` are consecutive and in the same cell.
 struct Run {
   VoxelKey key;
   std::uint32_t first, last;
@@ -50,22 +50,22 @@ struct Cell {
   Box<Scalar> box;
 };
 
-/// Cells right above each other, each of which touches the next: one cluster.
+/// Cells directly above each other, each touching the next: one cluster.
 template <class Scalar>
 struct Piece {
   int y;                      ///< Its row.
   std::uint32_t first, last;  ///< Its cells.
   Box<Scalar> box;
-  Scalar reach = 0;  ///< The longest of its points, in cell edges.
+  Scalar reach = 0;  ///< The longest reach of its points, in cell edges.
 };
 
-/// Where a piece is in its row, and the root that its set had when that was last looked at.
+/// The position of a piece in its row, and the root of its set at the last look-up.
 struct Place {
   int x, low, high;  ///< Its column, and z of its lowest and its highest cell.
   std::uint32_t root;
 };
 
-/// The least of each of the three numbers in the keys of runs, as a key.
+/// The minimum of each of the three numbers in the keys of runs, as a key.
 VoxelKey low_corner(const std::vector<Run>& runs) {
   constexpr VoxelKey kField = (VoxelKey{1} << kVoxelBits) - 1;
   std::array<VoxelKey, 3> least{kField, kField << kVoxelBits, kField << (2 * kVoxelBits)};
@@ -78,8 +78,8 @@ VoxelKey low_corner(const std::vector<Run>& runs) {
   return least[0] | least[1] | least[2];
 }
 
-/// Sorts runs by their keys, and those of a key by their points: digit by digit from the lowest, of
-/// which only those are looked at in which keys differ. Each number of a key has two digits.
+/// Sorts runs by their keys, and those of a key by their points: digit by digit from the lowest,
+/// skipping digits that are equal in all keys. Each number of a key has two digits.
 void sort_by_key(std::vector<Run>& runs) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
@@ -99,7 +99,7 @@ void sort_by_key(std::vector<Run>& runs) {
   }
 }
 
-/// `voxel_index` without a call of a library for each coordinate.
+/// `voxel_index` without a library call for each coordinate.
 VoxelIndex cell_at(const Eigen::Vector3d& in_cells) {
   if (!(in_cells.cwiseAbs().maxCoeff() < kVoxelLimit)) return voxel_index(in_cells, 1.0);
   const auto floor_of = [](double value) {
@@ -109,7 +109,7 @@ VoxelIndex cell_at(const Eigen::Vector3d& in_cells) {
   return {floor_of(in_cells.x()), floor_of(in_cells.y()), floor_of(in_cells.z())};
 }
 
-/// Cells whose diagonal is the smallest reach save nearly all comparisons: the points of one cell
+/// Cells whose diagonal is the smallest reach avoid nearly all comparisons: the points of one cell
 /// are joined, and two cells are joined by the first pair of points that is near enough.
 template <class Scalar>
 class Clustering {
@@ -122,14 +122,14 @@ class Clustering {
         ranges_(ranges),
         gap_(gap),
         growth_(growth),
-        // Made smaller by a rounding error, where the precision has room for it.
+        // Smaller by a rounding error, if the precision allows it.
         edge_(gap / std::sqrt(Scalar(3)) * static_cast<Scalar>(1.0 - 1e-9)) {
     sort_into_cells();
   }
 
   std::vector<int> run() {
     DisjointSets sets(pieces_.size());
-    // What hangs together mostly does so by points that follow each other.
+    // Most connections are between consecutive points.
     join_along_points(sets);
     for (std::uint32_t p = 0; p < places_.size(); ++p) places_[p].root = sets.root(p);
     join_in_reach(sets);
@@ -138,8 +138,8 @@ class Clustering {
 
  private:
   [[nodiscard]] Scalar reach_at(Scalar range) const { return gap_ + growth_ * range; }
-  /// The reach in cell edges, and a little more, since cells are found with other roundings than
-  /// distances.
+  /// The reach in cell edges, slightly enlarged, because cells and distances are rounded
+  /// differently.
   [[nodiscard]] Scalar reach_in_cells(Scalar range) const {
     return reach_at(range) / edge_ * static_cast<Scalar>(1.0 + 1e-4);
   }
@@ -167,7 +167,7 @@ class Clustering {
     for (Piece<Scalar>& piece : pieces_) piece.reach = reach_in_cells(piece.box.farthest());
   }
 
-  /// Finds the runs of all points in their order. Keys that are sorted run up a column.
+  /// Finds the runs of all points in their order. Sorted keys run up a column.
   void find_runs() {
     const double scale = 1.0 / edge_;
     runs_.reserve(points_.size() / 2);
@@ -182,7 +182,7 @@ class Clustering {
     if (!runs_.empty()) runs_.back().last = static_cast<std::uint32_t>(points_.size());
   }
 
-  /// Adds a cell that lies above or behind all others.
+  /// Adds a cell that is above or after all others.
   void add_cell(int x, int y, const Cell<Scalar>& cell) {
     const bool new_row = pieces_.empty() || pieces_.back().y != y;
     const auto number = static_cast<std::uint32_t>(cells_.size());
@@ -214,10 +214,10 @@ class Clustering {
     }
   }
 
-  /// Joins every pair of pieces that lie near enough, looking at each pair once.
+  /// Joins every pair of pieces that are near enough; visits each pair once.
   void join_in_reach(DisjointSets& sets) {
-    // Of each row the first piece that is not too far to the left. The pieces of the row above are
-    // gone through from left to right, so that it is never far from where it was.
+    // The first piece of each row that is not too far to the left. The pieces of the row above are
+    // visited from left to right, so that it moves little.
     std::vector<std::uint32_t> begin(rows_.size());
     std::vector<std::uint32_t> others(pieces_.size());
     for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
@@ -234,7 +234,7 @@ class Clustering {
     }
   }
 
-  /// Joins a piece with those of a row that is its own or a later one.
+  /// Joins a piece with the pieces of its own or a later row.
   void join_with_row(std::uint32_t p, std::size_t row, Scalar across, std::uint32_t& begin,
                      std::uint32_t* others, DisjointSets& sets) {
     const Scalar reach = pieces_[p].reach;
@@ -255,8 +255,8 @@ class Clustering {
   }
 
   /// Finds the pieces of a row from number `n` on that lie at most `aside` cells beside `place` and
-  /// `above` cells above or below it, and have another root. Most have the same one, and are left
-  /// out without a branch for each. @return how many; their numbers are in `others`
+  /// `above` cells above or below it, and have another root. Most have the same root, and are left
+  /// out without a branch for each. @return their number; the pieces are in `others`
   std::size_t find_others(const Place& place, int aside, int above, std::uint32_t n,
                           std::uint32_t end, std::uint32_t* others) const {
     const Place* const places = places_.data();
@@ -271,8 +271,8 @@ class Clustering {
     return count;
   }
 
-  /// The first piece of a row at `x` or to the right of it. It is looked for on both sides of
-  /// `guess`, from which it is never far.
+  /// The first piece of a row at `x` or to the right of it. The search starts at `guess`, which is
+  /// always near, and goes to both sides.
   [[nodiscard]] std::uint32_t first_from(std::uint32_t guess, std::uint32_t row, std::uint32_t end,
                                          int x) const {
     while (guess < end && places_[guess].x < x) ++guess;

@@ -8,7 +8,7 @@
 
 namespace raymoval {
 
-/// The whole of a method as a function: the steps of its paper from scans to masks.
+/// A whole method as a function: the steps of its paper from scans to masks.
 template <class Parameters>
 using RunFunction = void (*)(const Parameters&, const ScanSource&, RemovalSink&, const RunContext&);
 

@@ -12,14 +12,14 @@ namespace {
 
 using Fixed = std::int64_t;  ///< Voxels times 2^40.
 
-/// A length in fixed point. It is cut to `kLongest`, which no beam reaches, so that a block's side
-/// times it still fits.
+/// A length in fixed point. It is limited to `kLongest`, which no beam reaches, so that its product
+/// with a block's side still fits.
 Fixed fixed(double voxels) {
   constexpr double kUnit = static_cast<double>(Fixed{1} << 40);
   return static_cast<Fixed>(std::min(voxels, FreeWalk::kLongest) * kUnit);
 }
 
-/// The distance along a beam to its next wall of an axis, and from there on between walls.
+/// The distance along a beam to its next wall of an axis, and between walls after it.
 struct Axis {
   Fixed next, delta;
   int step;  ///< +1 or -1.
@@ -32,15 +32,16 @@ struct Axis {
     next = fixed(direction == 0.0 ? period : (step > 0 ? low + 1.0 - place : place - low) * period);
     delta = fixed(period);
   }
-  /// Where the beam leaves the block; `cell` voxels of the block lie below it along the axis.
+  /// Distance at which the beam leaves the block; `cell` voxels of the block are below it along the
+  /// axis.
   [[nodiscard]] Fixed block_exit(int cell) const {
     return next + (step > 0 ? kSide - 1 - cell : cell) * delta;
   }
 };
 
-/// One beam under way. A beam goes from voxel to voxel after Amanatides and Woo (1987). As most
-/// beams run nearly level, the inner loop walks the columns of one block at one height:
-/// whole-number arithmetic without branches on the direction, which no processor can foretell.
+/// The walk of a beam from voxel to voxel after Amanatides and Woo (1987). Most beams are nearly
+/// level, so the inner loop walks the columns of one block at one height: integer arithmetic
+/// without branches on the direction, which processors cannot predict.
 class Walk {
  public:
   /// @param sensor from the low corner of `block`
@@ -76,14 +77,14 @@ class Walk {
   }
 
  private:
-  /// Marks the voxels entered before `limit` at the present height, in the present block.
+  /// Marks the voxels entered before `limit` at the current height, in the current block.
   /// @return true at a hit
   bool walk_level(Fixed limit) {
     Column* const columns = block_->columns.data();
     const std::uint64_t free = std::uint64_t{1} << height_;
     const int x_step = x_.step * kSide, y_minus_x = y_.step - x_step;
     const Fixed x_delta = x_.delta, y_delta = y_.delta;
-    // Where the next x wall is, and how far behind it the next y wall. Copies stay in registers.
+    // The distance of the next x wall, and from it to the next y wall. Copies stay in registers.
     Fixed x = x_.next, lead = y_.next - x;
     int column = column_;
     bool at_hit = false;

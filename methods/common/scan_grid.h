@@ -11,9 +11,9 @@
 
 namespace raymoval::scan_grid {
 
-/// Voxels come in blocks of 32 x 32 upright columns of 64. A word holds a column: the beams of a
-/// LiDAR run mostly level, so that neighbours on a beam lie in different words and marking one does
-/// not wait for the other.
+/// Voxels come in blocks of 32 x 32 upright columns of 64. A word holds a column: LiDAR beams are
+/// mostly level, so that neighbours on a beam are in different words and can be marked
+/// independently.
 inline constexpr int kSideBits = 5;
 inline constexpr int kSide = 1 << kSideBits;
 inline constexpr int kHeightBits = 6;
@@ -33,7 +33,8 @@ inline std::uint64_t bit_of(const VoxelIndex& voxel) {
   return std::uint64_t{1} << (voxel.z() & (kHeight - 1));
 }
 
-/// What one scan says of a column of voxels. Each voxel has a bit, the lowest voxel the lowest bit.
+/// The observation of a column of voxels by one scan. Each voxel has a bit, the lowest voxel the
+/// lowest bit.
 struct Column {
   std::uint64_t free = 0;  ///< Beams of the scan pass through it.
   std::uint64_t hit = 0;   ///< The scan has a return there.
@@ -53,7 +54,7 @@ class ScanGrid {
   /// The largest number of blocks (16 KiB each). No scan of a real place needs as many.
   static constexpr std::size_t kMostBlocks = std::size_t{1} << 18;
 
-  /// @param remedy what to do about more than `kMostBlocks`: a sentence of an error
+  /// @param remedy the remedy for more than `kMostBlocks`, for the error
   explicit ScanGrid(std::string remedy = "Remove the farthest points.")
       : remedy_(std::move(remedy)) {}
 
@@ -100,8 +101,7 @@ class ScanGrid {
   VoxelMap<std::uint32_t> index_;
   std::vector<std::unique_ptr<ScanBlock>> blocks_;  ///< The first `used_` are this scan's.
   std::size_t used_ = 0;
-  ScanBlock* last_ =
-      nullptr;  ///< The block that was asked for last, which is mostly asked for again.
+  ScanBlock* last_ = nullptr;  ///< The last block, which is mostly needed again.
 };
 
 /// Marks the voxels that beams of one scan pass through.

@@ -13,7 +13,7 @@
 
 namespace raymoval {
 
-/// Which scans of a source a pass goes through, first to last.
+/// The scans of a source in a pass, first to last.
 struct ScanSelection {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -33,7 +33,7 @@ inline ScanSelection every_nth_scan(std::size_t first, std::size_t end, std::siz
 }
 
 /// One pass: calls `visit(Scan)` with each selected scan, one after the other. It shows progress,
-/// stops when it is asked to, and books the time of the visit, without loading, to the scan.
+/// stops on a cancel, and books the time of the visit, without loading, to the scan.
 /// @param what names the pass in progress lines
 /// @param selection a `ScanSelection`, or a vector of scans' numbers
 template <class Selection, class Visit>
@@ -56,8 +56,8 @@ void for_each_scan(const char* what, const ScanSource& scans, const RunContext& 
   for_each_scan(what, scans, all_scans(scans), context, visit);
 }
 
-/// One pass in which every thread loads and visits chunks of `grain` scans that follow each other.
-/// `visit_chunk(each_scan)` is called for each chunk; it prepares what the chunk needs and calls
+/// One pass in which every thread loads and visits chunks of `grain` consecutive scans.
+/// `visit_chunk(each_scan)` is called for each chunk; it prepares the chunk and calls
 /// `each_scan(visit)` once, which calls `visit(Scan)` with the scans of the chunk in turn. Visits
 /// must not depend on other chunks. The time of each visit, without loading, is booked to its scan;
 /// stages add up over the threads.
@@ -78,7 +78,7 @@ void for_scan_chunks(const char* what, const ScanSource& scans, const ScanSelect
   });
 }
 
-/// The same for visits that do not depend on each other at all: `visit(Scan)`, on any thread.
+/// The same for independent visits: `visit(Scan)`, on any thread.
 template <class Visit>
 void for_scans_in_parallel(const char* what, const ScanSource& scans,
                            const ScanSelection& selection, const RunContext& context,
@@ -86,7 +86,7 @@ void for_scans_in_parallel(const char* what, const ScanSource& scans,
   for_scan_chunks(what, scans, selection, 1, context, [&](auto&& each_scan) { each_scan(visit); });
 }
 
-/// How many scans `for_scan_batches` takes at a time: one for each thread.
+/// The number of scans in a batch of `for_scan_batches`: one for each thread.
 inline std::size_t scans_in_a_batch(const ScanSource& scans, const RunContext& context) {
   return std::min(static_cast<std::size_t>(std::clamp(context.threads, 1, 64)), scans.size());
 }
@@ -125,9 +125,9 @@ void for_scan_batches(const char* what, const ScanSource& scans, const RunContex
   for_scan_batches(what, scans, all_scans(scans), context, visit_batch);
 }
 
-/// One pass in batches of visits that do not depend on each other: `visit(Scan&)`, each on one of
-/// the threads. With several threads the time is also booked to `stage`, since what goes on side by
-/// side within a visit cannot be told apart.
+/// One pass in batches of independent visits: `visit(Scan&)`, each on one thread. With several
+/// threads the time is also booked to `stage`, because the stages of parallel visits cannot be
+/// separated.
 template <class Selection, class Visit>
 void for_scans_at_once(const char* what, const char* stage, const ScanSource& scans,
                        const Selection& selection, const RunContext& context, Visit&& visit) {

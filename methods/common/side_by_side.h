@@ -6,9 +6,8 @@
 
 namespace raymoval {
 
-/// Takes two steps that do not need each other, each of which gets the context to work in. With
-/// several threads one is taken beside the other, and they are timed as one stage: what goes on
-/// side by side cannot be told apart.
+/// Runs two independent steps, each with the context to work in. With several threads they run in
+/// parallel and are timed as one stage, because their times cannot be separated.
 template <class OneStep, class OtherStep>
 void side_by_side(const RunContext& context, const char* stage, OneStep&& one_step,
                   OtherStep&& other_step) {
@@ -20,8 +19,8 @@ void side_by_side(const RunContext& context, const char* stage, OneStep&& one_st
                [&](std::size_t step) { step == 0 ? one_step(of_step) : other_step(of_step); });
 }
 
-/// The same for steps that are part of a longer stage and need no context. The first may use all
-/// threads as soon as the second is done.
+/// The same for steps within a longer stage, without a context. The first step may use all threads
+/// once the second is done.
 template <class First, class Second>
 void side_by_side(const RunContext& context, First&& first, Second&& second) {
   parallel_for(context.threads, 2, 1, [&](std::size_t step) { step == 0 ? first() : second(); });

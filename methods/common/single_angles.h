@@ -6,12 +6,11 @@
 
 namespace raymoval {
 
-// Angles in single precision, without branches, so that a compiler can find those of several points
-// at a time (in a file compiled without errno and trap handling of the square root, see
-// CMakeLists.txt).
+// Angles in single precision, without branches, so that a compiler can compute several at a time
+// (in a file compiled without errno and trap handling of the square root, see CMakeLists.txt).
 
-/// Arc tangent of 0 <= t <= 1 in radians, wrong by 2e-8 at most before rounding (Abramowitz and
-/// Stegun, 4.4.49).
+/// Arc tangent of 0 <= t <= 1 in radians, with an error of at most 2e-8 before rounding (Abramowitz
+/// and Stegun, 4.4.49).
 inline float single_arc_tangent(float t) {
   const float s = t * t;
   float sum = 0.0028662257F;
@@ -40,7 +39,7 @@ inline float single_azimuth(float x, float y) {
   return y < 0.0F ? -half : half;
 }
 
-/// Elevation of a place at a horizontal distance and a height, -pi/2 to pi/2.
+/// Elevation of a point at a horizontal distance and a height, -pi/2 to pi/2.
 inline float single_elevation(float distance, float z) {
   const float steep = single_angle_in_quadrant(distance, std::abs(z));
   return z < 0.0F ? -steep : steep;

@@ -9,8 +9,8 @@
 namespace raymoval {
 
 /// Blocks of voxels anywhere, found by a hash of their indices. A block never moves in memory, so
-/// that several threads may each work on their own. For values that stand in one array see
-/// `DenseBlocks`, for the voxels of one scan `scan_grid::ScanGrid`.
+/// that each thread may work on its own block. For values in one array see `DenseBlocks`, for the
+/// voxels of one scan `scan_grid::ScanGrid`.
 template <class Block>
 class SparseBlocks {
  public:
@@ -19,7 +19,7 @@ class SparseBlocks {
     const auto found = blocks_.find(voxel_key(at));
     return found == blocks_.end() ? nullptr : found->second.get();
   }
-  /// The same; if there is none yet, it is made of `values`.
+  /// The same; a missing block is made of `values`.
   template <class... Values>
   Block& find_or_make(const VoxelIndex& at, const Values&... values) {
     const auto [found, is_new] = blocks_.try_emplace(voxel_key(at));
@@ -46,8 +46,8 @@ class SparseBlocks {
   VoxelMap<std::unique_ptr<Block>> blocks_;
 };
 
-/// Finds blocks in a map that stays as it is. Points come ring by ring, so that the block that was
-/// asked for last is mostly asked for again and needs no hash.
+/// Finds blocks in a constant map. Points come ring by ring, so that the last block is mostly
+/// needed again, without a hash.
 template <class Map>
 class BlockFinder {
  public:

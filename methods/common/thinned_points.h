@@ -7,10 +7,10 @@
 
 namespace raymoval {
 
-/// Points thinned to one centroid per voxel, in the order in which the voxels first have a point.
+/// Points thinned to one centroid per voxel, in the order of the voxels' first points.
 class ThinnedPoints {
  public:
-  /// @param voxel edge of a voxel, metres; the lattice lies in the frame of the points
+  /// @param voxel edge of a voxel, metres; the lattice is in the frame of the points
   explicit ThinnedPoints(double voxel) : inverse_(1.0 / voxel) {}
 
   /// Adds a point. @return the number of its centroid
@@ -26,7 +26,7 @@ class ThinnedPoints {
     return found->second;
   }
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  /// The number of the centroid of a point's voxel; `kNone` if no point of it was added.
+  /// The number of the centroid of a point's voxel; `kNone` if the voxel has no point.
   [[nodiscard]] std::size_t find(const Eigen::Vector3d& point) const {
     const auto found = numbers_.find(voxel_key(voxel_index(point, inverse_)));
     return found == numbers_.end() ? kNone : found->second;

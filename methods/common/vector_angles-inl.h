@@ -18,7 +18,7 @@ namespace raymoval {
 namespace HWY_NAMESPACE {
 
 /// The angle of (x, y) from the x axis, radians in [-pi, pi], with an error below 4e-7; 0 for (0,
-/// 0). The polynomial is turned and mirrored beyond 45 degrees. Highway's own atan would round
+/// 0). Beyond 45 degrees the polynomial is rotated and mirrored. Highway's own atan would round
 /// differently where multiplication and addition are one instruction.
 /// @param d the lanes, of single precision
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>

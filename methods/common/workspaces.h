@@ -9,14 +9,14 @@
 
 namespace raymoval {
 
-/// Lends out work memory, so that each thread at work has one workspace and not each scan.
+/// Provides workspaces, so that there is one per working thread and not one per scan.
 template <class Workspace>
 class Workspaces {
  public:
   using Make = std::function<std::unique_ptr<Workspace>()>;
   explicit Workspaces(Make make) : make_(std::move(make)) {}
 
-  /// Calls `work(workspace)` with a workspace that no other thread has meanwhile.
+  /// Calls `work(workspace)` with a workspace that no other thread uses meanwhile.
   template <class Work>
   void with_one(Work&& work) {
     std::unique_ptr<Workspace> workspace = borrow();

@@ -52,8 +52,8 @@ void mark_hits(const Beam& beam, const VoxelIndex& end, double hit_extension, Sc
   }
 }
 
-/// The second part of step 3: from the end of the beam on until `margin` voxels are passed along
-/// any one axis.
+/// The second part of step 3: continues from the end of the beam until it has advanced `margin`
+/// voxels along one axis.
 void mark_compensation(const Eigen::Vector3d& sensor, const Beam& beam, const VoxelIndex& stop,
                        int margin, ScanGrid& grid) {
   CellWalk walk(sensor, beam.direction, stop);
@@ -83,7 +83,7 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
   ends.reserve(voxels.size());
   for (std::size_t k = 0; k < voxels.size(); ++k) {
     if (scan.points[k].cast<double>().squaredNorm() < nearest) continue;
-    std::uint64_t& seen = grid.column(voxels[k]).free;  // Borrowed: nothing is free yet.
+    std::uint64_t& seen = grid.column(voxels[k]).free;  // Used as scratch: no voxel is free yet.
     if ((seen & bit_of(voxels[k])) != 0) continue;
     seen |= bit_of(voxels[k]);
     ends.push_back(voxels[k]);
@@ -94,7 +94,7 @@ std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex
 
 void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
                 ScanGrid& grid, const RunContext& context) {
-  constexpr std::size_t kBeamsInTurn = 512;  // Between two questions whether to stop.
+  constexpr std::size_t kBeamsInTurn = 512;  // Between two checks for a cancel.
   const Eigen::Vector3d sensor = scan.T_world_sensor.translation() / parameters.voxel_size;
   const double extension = parameters.hit_extension / parameters.voxel_size;
   for (const VoxelIndex& end : ends) mark_hits(Beam(sensor, end), end, extension, grid);

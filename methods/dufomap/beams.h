@@ -36,7 +36,7 @@ class CellWalk {
   [[nodiscard]] const VoxelIndex& cell() const { return cell_; }
   /// Distance from the origin at which the line enters the next voxel.
   [[nodiscard]] double next_distance() const { return next_[next_axis()]; }
-  /// Goes to the next voxel. @return the axis along which it lies
+  /// Goes to the next voxel. @return the axis of the step
   std::size_t advance() {
     const std::size_t axis = next_axis();
     cell_[static_cast<Eigen::Index>(axis)] += step_[axis];
@@ -61,13 +61,14 @@ class CellWalk {
 std::vector<VoxelIndex> voxels_of(const Scan& scan, double voxel_size);
 
 /// Step 1: the voxels that hold a point of `scan` not nearer than `minimum_range`, each once,
-/// ordered by direction around the sensor: neighbours on the list see the same voxels.
+/// ordered by direction around the sensor, so that neighbours in the list pass through the same
+/// voxels.
 /// @param voxels of each point; @param grid empty before and after
 std::vector<VoxelIndex> beam_ends(const Scan& scan, const std::vector<VoxelIndex>& voxels,
                                   const Parameters& parameters, ScanGrid& grid);
 
 /// Steps 1-3 for one scan: fills `grid` (empty before) with the hits and free voxels of the scan.
-/// @param context is asked now and then whether to stop
+/// @param context is checked for a cancel now and then
 /// @throws DataError for a beam of more than 131,072 voxels; Cancelled
 void cast_beams(const Scan& scan, const std::vector<VoxelIndex>& ends, const Parameters& parameters,
                 ScanGrid& grid, const RunContext& context = {});
@@ -82,7 +83,7 @@ using ScanVoids = std::vector<std::pair<VoxelIndex, VoidBits>>;
 /// @param inflation d_p, voxels, at most a block's side
 void find_voids(const ScanGrid& grid, int inflation, ScanVoids& voids);
 
-/// Step 5: the voids of all scans so far, 8 KiB a block of 32 x 32 x 64 voxels.
+/// Step 5: the voids of all scans so far, 8 KiB per block of 32 x 32 x 64 voxels.
 class VoidMap {
  public:
   void add(const ScanVoids& voids);

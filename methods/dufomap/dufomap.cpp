@@ -10,7 +10,7 @@
 namespace raymoval::dufomap_method {
 namespace {
 
-/// What the steps find out about one scan; its memory is used again for later scans.
+/// Results of the steps for one scan; its memory is used again for later scans.
 struct ScanWork {
   std::size_t scan = 0;
   std::vector<VoxelIndex> voxels;  ///< The voxel of each point.

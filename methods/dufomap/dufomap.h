@@ -20,8 +20,8 @@ struct Parameters {
 };
 
 /// D. Duberg, Q. Zhang, M. Jia, P. Jensfelt: "DUFOMap: Efficient Dynamic Awareness Mapping", RA-L
-/// 2024. A voxel that one scan has once seen free for certain is a void; a point that ever falls in
-/// a void is dynamic. Per scan:
+/// 2024. A voxel that one scan has observed as certainly free is a void; any point in a void is
+/// dynamic. Per scan:
 ///  1. Points nearer than `minimum_range` are dropped; one beam goes to the centre of each voxel
 ///     that holds a point.
 ///  2. Hits: the voxels on the last `hit_extension` (d_s) metres of each beam.

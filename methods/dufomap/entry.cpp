@@ -57,7 +57,7 @@ MethodEntry dufomap_entry() {
 }
 )";
   entry.notes = {
-      // The page of the method has all.
+      // The page of the method has all notes.
       "The default is the public configuration (d_p 1), which reproduces the paper's table; the "
       "public Python example passes d_p 2, here the variants called dp2.",
       "One beam per occupied voxel, to the voxel's centre ('center' sampling); the other "

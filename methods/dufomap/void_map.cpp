@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMostInflation = 8;
 constexpr int kWidest = kSide + 2 * kMostInflation;
-/// Columns of a block and of what lies within d_p around it; row = x.
+/// Columns of a block and of its surroundings within d_p; row = x.
 using Padded = std::array<std::array<std::uint64_t, kWidest>, kWidest>;
 
 /// Voxels of a column whose neighbours up to `inflation` below and above are free.
@@ -22,13 +22,14 @@ std::uint64_t erode_upright(std::uint64_t below, std::uint64_t column, std::uint
   return eroded;
 }
 
-/// First and past-the-last column along one axis that a block at `d` (-1, 0, +1) adds.
+/// First and past-the-last column along one axis that a neighbour block at offset `d` (-1, 0, +1)
+/// adds.
 std::pair<int, int> columns_added(int d, int inflation) {
   if (d < 0) return {-inflation, 0};
   return d > 0 ? std::pair(kSide, kSide + inflation) : std::pair(0, kSide);
 }
 
-/// Puts the block at (dx, dy) beside `at`, eroded along z, into its part of `padded`.
+/// Writes the block at offset (dx, dy) from `at`, eroded along z, into its part of `padded`.
 /// @return false if that is all zero
 bool add_neighbour(const ScanGrid& grid, const VoxelIndex& at, int dx, int dy, int inflation,
                    Padded& padded) {

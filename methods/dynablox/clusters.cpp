@@ -9,7 +9,7 @@
 namespace raymoval::dynablox_method {
 namespace {
 
-/// Voxels with points that grew from ever-free ones.
+/// Voxels with points, grown from ever-free voxels.
 struct GrownVoxels {
   std::vector<VoxelIndex> voxels;
   VoxelMap<std::uint32_t> numbers;  ///< Position in `voxels`.
@@ -23,7 +23,7 @@ struct GrownVoxels {
   }
 };
 
-/// Step 3: the ever-free voxels in which the scan has points, and those with points beside them.
+/// Step 3: the ever-free voxels with points of the scan, and their neighbours with points.
 GrownVoxels grow(const ScanVoxels& scan, const BlockMap& map) {
   GrownVoxels grown;
   BlockFinder blocks(map);
@@ -47,9 +47,9 @@ GrownVoxels grow(const ScanVoxels& scan, const BlockMap& map) {
   return grown;
 }
 
-/// Step 4: clusters are one if centres of their voxels are near each other.
+/// Step 4: joins clusters if centres of their voxels are near each other.
 void join_near(const GrownVoxels& grown, const Parameters& parameters, DisjointSets& sets) {
-  // 0.2 m is one voxel of 0.2 m, whatever the rounding.
+  // 0.2 m is one voxel of 0.2 m, despite rounding.
   const double voxels = parameters.separation / parameters.voxel_size * (1.0 + 1e-9);
   std::vector<VoxelIndex> steps;
   for_each_around(VoxelIndex::Zero(), static_cast<int>(voxels), [&](const VoxelIndex& step) {

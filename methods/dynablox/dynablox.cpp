@@ -14,7 +14,7 @@
 namespace raymoval::dynablox_method {
 namespace {
 
-/// All that is kept from scan to scan.
+/// The state that is kept from scan to scan.
 class Detector {
  public:
   Detector(const Parameters& parameters, const ScanSource& scans)
@@ -39,7 +39,7 @@ class Detector {
     return mask;
   }
 
-  /// The points of a scan in voxels that are ever free, whatever their range.
+  /// The points of a scan in ever-free voxels, at any range.
   [[nodiscard]] Mask ever_free_points(const Scan& scan) const {
     BlockFinder blocks(map_);
     return mask_by_voxel(scan, parameters_.voxel_size, [&](const VoxelIndex& voxel) {
@@ -53,7 +53,7 @@ class Detector {
   BlockMap map_;
   FreeSpace free_space_;
   Integrator integrator_;
-  ScanVoxels voxels_;            ///< Of the present scan.
+  ScanVoxels voxels_;            ///< Of the current scan.
   std::vector<Block*> touched_;  ///< By the rays of the last scan.
 };
 
@@ -75,7 +75,7 @@ void find_voxels(const Scan& scan, double voxel_size, ScanVoxels& found) {
   found.voxels.clear();
   found.hits.clear();
   VoxelIndex last_at;
-  BlockBits* last = nullptr;  // Points that follow each other mostly share their block.
+  BlockBits* last = nullptr;  // Consecutive points mostly share their block.
   for (const Eigen::Vector3f& point : scan.points) {
     const VoxelIndex voxel =
         voxel_index(scan.T_world_sensor * point.cast<double>(), 1.0 / voxel_size);

@@ -8,8 +8,8 @@
 namespace raymoval {
 namespace dynablox_method {
 
-/// Parameters of Dynablox; defaults are those of the published configuration. Their units, ranges
-/// and meanings stand in entry.cpp.
+/// Parameters of Dynablox; defaults are those of the published configuration. Units, ranges and
+/// meanings are in entry.cpp.
 struct Parameters {
   // The distance field.
   double voxel_size = 0.2;
@@ -17,7 +17,7 @@ struct Parameters {
   double max_range = 20.0;
   double truncation = 0.4;
   int max_weight = 1000;
-  // What is ever free.
+  // Ever-free voxels.
   double occupied_below = 0.3;
   int temporal_buffer = 2;
   int burn_in = 5;
@@ -25,24 +25,24 @@ struct Parameters {
   // Clusters.
   double separation = 0.2;
   int min_points = 20;
-  // The answer.
+  // Answer.
   bool offline = false;
 };
 
 /// L. Schmid, O. Andersson, A. Sulser, P. Pfreundschuh, R. Siegwart: "Dynablox: Real-time Detection
-/// of Diverse Dynamic Objects in Complex Environments", RA-L 2023. What moves is what appears where
-/// it was ever free. Of each scan, in turn:
-///  1. Points are sorted into voxels, 2. those of a scan into blocks.
-///  3. Those in ever-free voxels are seeds, which grow to the voxels with points beside them.
-///  4. Clusters near each other are one.
-///  5. Clusters that are too small are none.
+/// of Diverse Dynamic Objects in Complex Environments", RA-L 2023. A point moves if it appears in
+/// space that was free for a while ("ever free"). For each scan in order:
+///  1. Points are sorted into voxels, 2. the voxels of a scan into blocks.
+///  3. Ever-free voxels with points are seeds, which grow to neighbour voxels with points.
+///  4. Clusters near each other are joined.
+///  5. Clusters that are too small are dropped.
 ///  6. Points of clusters move.
-///  7. Voxels that were free for a while, as their neighbours, become ever free; those that are
-///     occupied for long cease to be.
-///  8. The scan is taken into the distance field that tells which voxels are free.
+///  7. Voxels that were free for a while, like their neighbours, become ever free. Voxels that are
+///     occupied for long are no longer ever free.
+///  8. The scan is integrated into the distance field, which gives the free voxels.
 /// Decisions and deviations from the public program: `notes` of the entry.
-/// @throws ConfigurationError if the ranges leave nothing, or distances are cut off below what
-/// counts as occupied
+/// @throws ConfigurationError if the ranges are empty, or distances are truncated below the
+/// threshold of occupied voxels
 std::unique_ptr<Remover> make_dynablox(const Parameters& parameters);
 
 }  // namespace dynablox_method

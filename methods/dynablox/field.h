@@ -13,23 +13,23 @@
 
 namespace raymoval::dynablox_method {
 
-/// Step 7: which voxels are ever free.
+/// Step 7: the ever-free voxels.
 class FreeSpace {
  public:
   explicit FreeSpace(const Parameters& parameters)
       : parameters_(parameters), kernels_(kernels::best_kernels()) {}
 
-  /// Looks at blocks again, when a scan has come and before it is integrated.
-  /// @param touched the blocks that the scan before went through
+  /// Updates the ever-free voxels of blocks for a new scan, before it is integrated.
+  /// @param touched the blocks that rays of the previous scan passed through
   /// @param hits the voxels in which the scan has points
   void update(const std::vector<Block*>& touched, const SparseBlocks<BlockBits>& hits,
               std::int32_t scan, const RunContext& context, BlockMap& map) const;
 
  private:
   /// Finds the settled voxels of a block.
-  /// @param is_touched whether the scan before went through it, so that it is seen which voxels are
-  /// occupied
-  /// @return the voxels that are to be reset
+  /// @param is_touched whether rays of the previous scan passed through it, so that its occupied
+  /// voxels are updated
+  /// @return the voxels to reset
   std::vector<VoxelIndex> sweep(const BlockBits* hit, bool is_touched, std::int32_t scan,
                                 Block& block) const;
   void add_ever_free(const BlockMap& map, Block& block) const;
@@ -38,39 +38,39 @@ class FreeSpace {
   kernels::Kernels kernels_;
 };
 
-/// The spherical image of ranges around a sensor. Columns go around the whole circle from azimuth
-/// -pi, each as wide as the next; rows go up, the first and the last are centred on the ends of the
-/// vertical field of view.
+/// The spherical image of ranges around a sensor. Columns of equal width go around the full circle
+/// from azimuth -pi. Rows go up; the first and the last are centred on the ends of the vertical
+/// field of view.
 struct ImageGrid {
   int columns = 2048, rows = 64;
   float columns_per_radian = 0.0F, rows_per_radian = 0.0F;
   float elevation_min = 0.0F;  ///< Of the centre of row 0, radians.
   float pixels_per_square_radian = 0.0F;
 
-  /// What the sensor's model does not know, or cannot be, is as published.
+  /// Unknown or impossible values of the sensor model are replaced by the published ones.
   explicit ImageGrid(const SensorModel& sensor);
 
-  /// A pixel of the stored image; the stored rows have an empty one below and above, and the stored
-  /// columns the first one again behind the last.
+  /// A pixel of the stored image. The stored image has an empty row below and above, and repeats
+  /// the first column after the last.
   [[nodiscard]] std::size_t stored(int column, int row) const {
     return static_cast<std::size_t>(row + 1) * static_cast<std::size_t>(columns + 1) +
            static_cast<std::size_t>(column);
   }
 };
 
-/// Step 8: takes scans into the distance field, as the nearest returns of a range image. Returns
-/// from beyond the range say that the way is free, in blocks that nearer returns touch.
+/// Step 8: integrates scans into the distance field, as the nearest returns of a range image.
+/// Returns beyond the range mark free space in blocks that nearer returns touch.
 class Integrator {
  public:
   Integrator(const Parameters& parameters, const SensorModel& sensor);
 
-  /// Makes the blocks along the rays of a scan where there are none, and updates their voxels as
-  /// far as the image shows them.
+  /// Makes missing blocks along the rays of a scan, and updates the voxels of the blocks that are
+  /// in the image.
   /// @param touched gets the blocks, in order of their indices
   void integrate(const Scan& scan, const RunContext& context, BlockMap& map,
                  std::vector<Block*>& touched);
 
-  /// How far voxels are updated, metres: not beyond the sensor's own range.
+  /// The range within which voxels are updated, metres; at most the sensor's range.
   [[nodiscard]] double max_range() const { return max_range_; }
 
  private:

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t kSweptAtOnce = 8;
 
-/// The blocks around a block and itself, by (dz, dy, dx); null where there is none.
+/// A block and the blocks around it, by (dz, dy, dx); null where there is none.
 using BlocksBeside = std::array<const Block*, 27>;
 
-/// The settled voxels of a row at (y, z), each of which may be just outside the block, whose
-/// neighbours along x are settled too.
+/// The settled voxels of the row at (y, z) whose neighbours along x are settled too. y and z may be
+/// one voxel outside the block.
 std::uint32_t eroded_row(const BlocksBeside& blocks, int y, int z) {
   const auto side_of = [](int i) { return i < 0 ? 0U : (i >= kSide ? 2U : 1U); };
   const std::size_t middle = side_of(z) * 9 + side_of(y) * 3 + 1;
@@ -29,7 +29,7 @@ std::uint32_t eroded_row(const BlocksBeside& blocks, int y, int z) {
   return row & (row << 1 | lower) & (row >> 1 | upper << (kSide - 1));
 }
 
-/// Of the voxels of a row, those whose 26 neighbours are settled.
+/// The voxels of a row whose 26 neighbours are settled.
 std::uint32_t surrounded(const BlocksBeside& blocks, int y, int z) {
   std::uint32_t all = ~std::uint32_t{0};
   for (int i = 0; i < 9 && all != 0; ++i) all &= eroded_row(blocks, y + i % 3 - 1, z + i / 3 - 1);
@@ -102,7 +102,7 @@ void FreeSpace::update(const std::vector<Block*>& touched, const SparseBlocks<Bl
   parallel_for(context.threads, touched.size(), kSweptAtOnce, [&](std::size_t i) {
     lasting[i] = sweep(hits.find(touched[i]->at), true, scan, *touched[i]);
   });
-  // All are found before the first is reset, so that no order of blocks counts.
+  // All are found before the first is reset, so that the order of blocks has no effect.
   const auto reset = [&map](const VoxelIndex& voxel) {
     Block* block = map.find(block_of(voxel));
     if (block == nullptr) return;

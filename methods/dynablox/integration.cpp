@@ -26,21 +26,21 @@ class BlocksAround {
     const auto side = static_cast<std::size_t>(side_);
     flags_.assign(side * side * side, 0);
   }
-  /// Marks the blocks that a ray goes through.
+  /// Marks the blocks that a ray passes through.
   /// @param ahead unit vector
-  /// @param reach in blocks, at least one less than that of all
+  /// @param reach in blocks, at least one less than the reach of this object
   void mark_ray(const Eigen::Vector3d& ahead, double reach) {
     mark(sensor_.cast<int>());
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (ahead[axis] == 0.0) continue;
-      // Every wall across this axis, one after the other, with the block behind it.
+      // Each wall across this axis in turn, with the block behind it.
       const double delta = 1.0 / std::abs(ahead[axis]);
       const int step = ahead[axis] > 0.0 ? 1 : -1;
       int behind = static_cast<int>(sensor_[axis]);
       const double inside = sensor_[axis] - behind;
       for (double way = (step > 0 ? 1.0 - inside : inside) * delta; way <= reach; way += delta) {
         behind += step;
-        // All coordinates are positive, so that cutting off is rounding down.
+        // All coordinates are positive, so that truncation rounds down.
         VoxelIndex at = (sensor_ + way * ahead).cast<int>();
         at[axis] = behind;
         mark(at);
@@ -81,7 +81,7 @@ struct Rays {
   double max_range = 0.0;  ///< Metres.
   double edge = 0.0;       ///< Of a block, metres.
 
-  /// Marks the blocks that a point's ray goes through, up to where voxels are no longer updated.
+  /// Marks the blocks that a point's ray passes through, within the range of updates.
   void mark(const Eigen::Vector3f& point, BlocksAround& blocks) const {
     const Eigen::Vector3d ahead = point.cast<double>();
     const double range = ahead.norm();
@@ -91,16 +91,16 @@ struct Rays {
   }
 };
 
-/// Whether a box is wholly above or below what the image shows, so that no voxel of it is updated.
+/// Tests whether a box is completely above or below the image, so that no voxel of it is updated.
 class ViewCones {
  public:
   explicit ViewCones(const ImageGrid& grid) {
-    // A little wider than the image, for roundings.
+    // A little wider than the image, for rounding.
     const double half_row = 0.51 / grid.rows_per_radian + 1e-4;
     const double low = grid.elevation_min - half_row;
     const float rows_above = static_cast<float>(grid.rows - 1);
     const double high = grid.elevation_min + rows_above / grid.rows_per_radian + half_row;
-    // What lies above a rising cone, or below a falling one, is convex.
+    // The region above a rising cone, or below a falling one, is convex.
     has_low_ = low < 0.0 && low > -kTurn / 4.0;
     has_high_ = high > 0.0 && high < kTurn / 4.0;
     low_slope_ = static_cast<float>(std::tan(low));
@@ -123,7 +123,7 @@ class ViewCones {
   float low_slope_ = 0.0F, high_slope_ = 0.0F;
 };
 
-/// One scan on its way into layers.
+/// The integration of one scan into layers.
 class LayerUpdate {
  public:
   LayerUpdate(const Scan& scan, double voxel_size, const kernels::Integration& job,
@@ -179,13 +179,13 @@ class LayerUpdate {
   kernels::Kernels kernels_;
 };
 
-/// How far the sensor sees and the parameters let it. A sensor whose range is unknown sees so far.
+/// The smaller of the sensor's range and `max_range`; `max_range` if the sensor's range is unknown.
 double range_of(const Parameters& parameters, const SensorModel& sensor) {
   if (!(sensor.range_max > 0.0)) return parameters.max_range;
   return std::min(parameters.max_range, sensor.range_max);
 }
 
-/// How many steps make up `whole`, as published if the step is unknown.
+/// The number of steps in `whole`; the published number if the step is unknown.
 int steps_in(double whole, double step, int published, int most) {
   if (!(step > 0.0)) return published;
   return static_cast<int>(std::clamp(std::round(whole / step), 1.0, static_cast<double>(most)));
@@ -228,7 +228,7 @@ void Integrator::integrate(const Scan& scan, const RunContext& context, BlockMap
   update(scan, context, touched);
 }
 
-/// Takes the place of the last scan's. Returns nearer than `min_range` are left out.
+/// Replaces the image of the previous scan. Returns nearer than `min_range` are left out.
 void Integrator::fill_image(const Scan& scan) {
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
   const kernels::Projection job{.columns = grid_.columns,
@@ -244,7 +244,7 @@ void Integrator::fill_image(const Scan& scan) {
   if (whole > 0) {
     kernels_.project(job, scan.points.front().data(), whole, pixels_.data(), ranges_.data());
   }
-  // The rest, with points at the origin behind them, which are in no pixel.
+  // The rest, padded with points at the origin, which are in no pixel.
   std::vector<Eigen::Vector3f> rest(scan.points.begin() + static_cast<std::ptrdiff_t>(whole),
                                     scan.points.end());
   rest.resize(lanes, Eigen::Vector3f::Zero());

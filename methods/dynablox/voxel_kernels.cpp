@@ -59,7 +59,8 @@ void project(const Projection& image, const float* points, std::size_t count, st
   }
 }
 
-/// Four pixels around a place in the image, and how far from the left and lower ones it is.
+/// Four pixels around a place in the image, and the distances of the place from the left and lower
+/// pixels.
 struct Pixels {
   F lower_left, lower_right, upper_left, upper_right;  ///< Ranges, 0 where there is no return.
   F right_share, upper_share;
@@ -85,7 +86,7 @@ HWY_INLINE Pixels pixels_around(const Integration& scan, F u, F v) {
           hn::Sub(v, below)};
 }
 
-/// What two places tell together: the one that has a return, or their mean and the nearer one.
+/// Two values combined: the one with a return, or the mean and the nearer of both.
 struct MeanAndLeast {
   F mean, least;
 };
@@ -100,8 +101,8 @@ HWY_INLINE MeanAndLeast together(const MeanAndLeast& a, const MeanAndLeast& b, F
   return {either(a.mean, b.mean, mean), either(a.least, b.least, hn::Min(a.least, b.least))};
 }
 
-/// The mean of each two pixels in a column, and of both columns; but the nearest of the pixels
-/// where it is nearer by more than half the truncation. 0 where there is no return.
+/// The interpolated range of four pixels, first along columns, then across. If the nearest pixel is
+/// nearer than that by more than half the truncation, the nearest pixel. 0 without a return.
 HWY_INLINE F adaptive_range(const Pixels& pixels, float truncation) {
   const auto column = [&](F lower, F upper) {
     return together({lower, lower}, {upper, upper}, pixels.upper_share);
@@ -113,8 +114,8 @@ HWY_INLINE F adaptive_range(const Pixels& pixels, float truncation) {
   return hn::IfThenElse(is_far, both.least, both.mean);
 }
 
-/// What a scan weighs in voxels. @param square of their ranges
-/// @param ahead how far they lie before the surface, metres
+/// The weight of a scan in voxels. @param square of the voxels' ranges
+/// @param ahead distance of the voxels before the surface, metres
 HWY_INLINE F weight_of_scan(const Integration& scan, F square, F ahead) {
   const F rays = hn::Div(number(scan.rays_at_a_metre), hn::Max(square, number(1.0F)));
   const F left_of_rays = hn::Div(hn::Mul(rays, hn::Add(number(scan.truncation), ahead)),
@@ -137,7 +138,7 @@ HWY_INLINE bool integrate_some(const Integration& scan, F x, F y, F z, float* di
   if (hn::AllFalse(d, wanted)) return false;
   const F azimuth = hn::Add(angle_of(y, x), number(kHalfTurn));
   const F u = hn::Sub(hn::Mul(azimuth, number(scan.columns_per_radian)), number(0.5F));
-  // What is not wanted must not reach beyond the image.
+  // Lanes that are not wanted must not read outside the image.
   const Pixels pixels = pixels_around(scan, u, hn::IfThenElseZero(wanted, v));
   const F seen = adaptive_range(pixels, scan.truncation);
   const F ahead = hn::Sub(seen, range);

@@ -12,7 +12,7 @@
 
 namespace raymoval::dynablox_method {
 
-// Voxels stand together in blocks of 16 x 16 x 16, which are made of level layers.
+// Voxels are stored in blocks of 16 x 16 x 16, which consist of horizontal layers.
 inline constexpr int kSideBits = 4;
 inline constexpr int kSide = 1 << kSideBits;
 inline constexpr int kLayer = kSide * kSide;
@@ -40,24 +40,25 @@ inline void insert(const VoxelIndex& voxel, BlockBits& bits) {
   bits[row_of(voxel)] = static_cast<std::uint16_t>(bits[row_of(voxel)] | bit_of(voxel));
 }
 
-/// What is known of 256 voxels at one height, x fastest: 14 bytes a voxel.
+/// The state of 256 voxels at one height, x fastest: 14 bytes per voxel.
 struct alignas(64) Layer {
   std::array<float, kLayer> distance{};              ///< Mean signed distance to a surface, metres.
   std::array<float, kLayer> weight{};                ///< Of that mean; 0 = never seen.
   std::array<std::int32_t, kLayer> last_occupied{};  ///< Position in the source.
-  std::array<std::uint16_t, kLayer> occupied_scans{};  ///< In which without a longer break.
+  std::array<std::uint16_t, kLayer>
+      occupied_scans{};  ///< Number of occupied scans without a long break.
 };
 
 struct Block {
   explicit Block(const VoxelIndex& position) : at(position) {}
 
   VoxelIndex at;  ///< Block indices (see `block_of`).
-  /// Null until a voxel of the layer was seen. Till then all voxels of it have the next two values:
+  /// Null until a voxel of the layer was seen. Until then, all its voxels have the next two values:
   std::array<std::unique_ptr<Layer>, kSide> layers;
   std::uint16_t unseen_occupied_scans = 0;
   std::int32_t unseen_last_occupied = -1;
   BlockBits ever_free{};
-  /// Voxels that were seen, and not occupied within the burn-in, as of the scan `settled_at`.
+  /// Voxels that were seen and not occupied within the burn-in, as of scan `settled_at`.
   BlockBits settled{};
   std::int32_t settled_at = -1;
 };

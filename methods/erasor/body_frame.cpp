@@ -15,29 +15,29 @@
 namespace raymoval::erasor_method {
 namespace {
 
-/// Discs around the sensor in which the height of the ground is looked for, metres. The first is
-/// what a sensor passes over, the others are for one that stands.
+/// Radii of discs around the sensor for the search of the ground's height, metres. The first is for
+/// a moving sensor, the others for a stationary one.
 constexpr double kDiscs[] = {1.5, 3.0, 6.0, 12.0};
-/// Sides of the columns whose feet tell the height of the ground, and its slope, metres.
+/// Sides of the columns whose feet give the height of the ground, and its slope, metres.
 constexpr double kHeightColumn = 0.5, kSlopeColumn = 1.0;
-/// Feet that tell the height of the ground: fewer may be noise.
+/// Least number of feet for the height of the ground: fewer may be noise.
 constexpr std::size_t kEnoughFeet = 10;
-/// What is farther above something else is held up by something else, metres: more than the step
-/// between two beams on a car that is near, and less than any storey is high.
+/// Points separated by a larger vertical gap are on different storeys, metres: more than the step
+/// between two beams on a near car, and less than the height of any storey.
 constexpr double kStoreyGap = 0.6;
-/// The ground has at least this share of the feet that the storey with the most has. What is above
-/// it and has fewer are roofs of cars and the like.
+/// The ground has at least this share of the feet of the storey with the most feet. Higher groups
+/// with fewer feet are roofs of cars and similar.
 constexpr double kGroundShare = 0.5;
-/// Discs in which the slope of the ground is fitted, one after the other, metres.
+/// Radii of the discs in which the slope of the ground is fitted in turn, metres.
 constexpr double kSlopeDiscs[] = {3.0, 6.0, 12.0};
-/// Feet that a slope is fitted to.
+/// Least number of feet for fitting a slope.
 constexpr std::size_t kEnoughForSlope = 20;
-/// Ground has its feet so near the plane before, metres.
+/// Largest distance of ground feet from the previous plane, metres.
 constexpr double kNearPlane = 0.3;
-/// The least upright normal of a ground: 45 degrees.
+/// The least vertical component of a ground normal: 45 degrees.
 const double kLeastUpright = std::sqrt(0.5);
 
-/// Calls `take(from_sensor)` with each of the map's voxels within `radius` that lies lower than the
+/// Calls `take(from_sensor)` for each voxel of the map within `radius` that is lower than the
 /// sensor.
 template <class Take>
 void for_voxels_below(const Eigen::Vector3d& sensor, double radius, const NaiveMap& map,
@@ -53,7 +53,7 @@ void for_voxels_below(const Eigen::Vector3d& sensor, double radius, const NaiveM
 }
 
 /// The feet on the storey of the sensor: of the groups that are `kStoreyGap` apart, the highest one
-/// with enough of them. Nothing if no group has `kEnoughFeet`.
+/// with enough feet. No value if no group has `kEnoughFeet`.
 /// @param heights relative to the sensor, all negative
 std::optional<std::vector<double>> storey_of_sensor(std::vector<double> heights) {
   std::sort(heights.begin(), heights.end());
@@ -72,9 +72,9 @@ std::optional<std::vector<double>> storey_of_sensor(std::vector<double> heights)
   return std::nullopt;
 }
 
-/// The feet of what stands in the columns of a disc around the sensor, relative to it: in each
-/// column, what nothing lies below for `kStoreyGap`. A column through a bridge has a foot on the
-/// road and one on the deck.
+/// The feet of the columns of a disc around the sensor, relative to it: points without another
+/// point within `kStoreyGap` below. A column through a bridge has a foot on the road and one on the
+/// deck.
 std::vector<Eigen::Vector3d> column_feet(const Eigen::Vector3d& sensor, double radius, double side,
                                          const NaiveMap& map) {
   std::map<std::pair<int, int>, std::vector<Eigen::Vector3d>> columns;
@@ -95,8 +95,7 @@ std::vector<Eigen::Vector3d> column_feet(const Eigen::Vector3d& sensor, double r
   return feet;
 }
 
-/// Height of the ground on the storey of the sensor, metres above the sensor, so that it is
-/// negative.
+/// Height of the ground on the storey of the sensor, metres relative to the sensor (negative).
 std::optional<double> ground_height(const Eigen::Vector3d& sensor, const NaiveMap& map) {
   for (const double radius : kDiscs) {
     std::vector<double> heights;
@@ -108,7 +107,7 @@ std::optional<double> ground_height(const Eigen::Vector3d& sensor, const NaiveMa
   return std::nullopt;
 }
 
-/// The ground in a frame that is that of the world with the sensor at its origin.
+/// The ground in the frame with the world's axes and its origin at the sensor.
 std::optional<Plane> ground_around(const Eigen::Vector3d& sensor, const NaiveMap& map) {
   const auto height = ground_height(sensor, map);
   if (!height) return std::nullopt;

@@ -8,26 +8,26 @@
 
 namespace raymoval::erasor_method {
 
-/// T_body_sensor of a query: bins lie on its x-y plane, and heights are above that.
+/// T_body_sensor of a query: bins are in the x-y plane of the body frame, and heights are above it.
 ///
-/// As published it is the sensor's own frame, lifted by `sensor_height`. One on the ground has the
-/// plane of the ground around the sensor for its x-y plane, and the heading of the sensor's x axis.
-/// That plane is found in the map from below the sensor outward: first its height, the median of
-/// the feet of what stands there on the storey of the sensor, then its slope, in discs that grow.
-/// The road below a bridge and another level of a car park are other storeys. Where the map has too
-/// little ground it is level, and where it has none the sensor is `sensor_height` above it.
-/// @param map that of all scans, from which queries may have taken voxels out
+/// `Body::kSensor`, as published: the sensor frame, lifted by `sensor_height`. `Body::kGround`: the
+/// x-y plane is the ground around the sensor, with the heading of the sensor's x axis. This plane
+/// is found in the map, in growing discs below the sensor: first its height, the median of the
+/// column feet on the storey of the sensor, then its slope. The road below a bridge and another
+/// level of a car park are other storeys. If the map has too little ground, the plane is level; if
+/// it has none, the sensor is `sensor_height` above it.
+/// @param map of all scans, possibly without voxels that queries removed
 Pose body_frame(const Pose& T_world_sensor, const NaiveMap& map, const Parameters& parameters);
 
-/// Whether a point is nearer than `minimum_range`: the own car. The distance is the one along the
-/// x-y plane of the sensor, as published, or with the body on the ground a level one, whichever way
-/// the sensor is held.
+/// Whether a point is nearer than `minimum_range`: the ego vehicle. The distance is in the x-y
+/// plane of the sensor, as published; with `Body::kGround`, it is horizontal for any tilt of the
+/// sensor.
 /// @param point sensor frame, metres
 bool is_own_car(const Eigen::Vector3f& point, const Pose& T_world_sensor,
                 const Parameters& parameters);
 
-/// `minimum_num_pts`, or with `points_by_beams` the share of it that a sensor with beams farther
-/// apart than those of the HDL-64E of the published sets leaves in a bin; at least one.
+/// `minimum_num_pts`; with `points_by_beams`, less for a sensor whose beams are farther apart than
+/// those of the HDL-64E of the published sets; at least one.
 int minimum_points_of(const SensorModel& sensor, const Parameters& parameters);
 
 }  // namespace raymoval::erasor_method

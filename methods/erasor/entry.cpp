@@ -98,7 +98,7 @@ Table make_table() {
   return table;
 }
 
-/// The values of a set that differ from the general one are all that a variant names.
+/// A variant lists only the values of its set that differ from the general set.
 std::vector<MethodVariant> variants() {
   const auto text = [](const char* sequence) {
     return std::string("The authors' set of 2021 for KITTI ") + sequence + ".";
@@ -154,7 +154,7 @@ MethodEntry erasor_entry() {
       "Point Cloud Map Building, RA-L 2021";
   entry.bibtex = kErasorBibtex;
   entry.notes = {
-      // The page of the method has all.
+      // The page of the method has all notes.
       "The map is a set of voxels on a lattice that no query moves, each with one fixed centroid "
       "and either in or out; the public map is a cloud that every query thins again and in which "
       "recovered ground stands twice.",

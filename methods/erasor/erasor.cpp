@@ -60,7 +60,7 @@ class ErasorRun {
       builder.add(known.keys, known.world);
     };
     for_each_scan("erasor, naive map", scans_, context_, [&](const Scan& scan) {
-      // Scans are added one after the other, each beside the search for the next one's voxels.
+      // Scans are added in turn, each in parallel with the search for the voxels of the next scan.
       side_by_side(context_, "naive map", add_known, [&](const RunContext& context) {
         const StageScope timed(context.times, "naive map");
         locate(scan, next);
@@ -72,7 +72,7 @@ class ErasorRun {
     return builder.finish();
   }
 
-  /// Compares every n-th scan with the map that the earlier ones left.
+  /// Compares every n-th scan with the map, from which earlier queries removed voxels.
   void process_queries(NaiveMap& map) {
     const auto interval = static_cast<std::size_t>(parameters_.removal_interval);
     const std::size_t first =
@@ -81,7 +81,7 @@ class ErasorRun {
                   context_, [&](const Scan& scan) { process(scan, map); });
   }
 
-  /// A point is dynamic iff its voxel is out of the map.
+  /// A point is dynamic iff its voxel was removed from the map.
   void answer(const NaiveMap& map, RemovalSink& sink) {
     answer_scans("erasor, answers", scans_, sink, context_, [&](const Scan& scan) {
       return mask_by_voxel(scan, parameters_.map_voxel_size,
@@ -108,7 +108,7 @@ class ErasorRun {
     reinsert(scan, query, map);
   }
 
-  /// World point and map voxel of each point of `scan`; none for those of the own car.
+  /// World point and map voxel of each point of `scan`; none for points of the ego vehicle.
   void locate(const Scan& scan, LocatedPoints& points) const {
     points.keys.resize(scan.size());
     points.world.resize(scan.size());
@@ -126,14 +126,14 @@ class ErasorRun {
     return T_body_sensor_ * sensor_point;
   }
 
-  /// Thins the scan in its own frame and sorts what is left into bins.
+  /// Thins the scan in the sensor frame and sorts the thinned points into bins.
   [[nodiscard]] QueryBins describe(const Scan& scan, const RunContext& context) const {
     const StageScope timed(context.times, "query bins");
     QueryBins query;
     query.extents.resize(bins_.size());
     query.bin_of_point.assign(scan.size(), -1);
     ThinnedPoints thinned(parameters_.query_voxel_size);
-    std::vector<int> slot_of_point(scan.size(), -1);  // -1: a point of the own car.
+    std::vector<int> slot_of_point(scan.size(), -1);  // -1: a point of the ego vehicle.
     for (std::size_t k = 0; k < scan.size(); ++k) {
       if (is_own_car(scan.points[k], scan.T_world_sensor, parameters_)) continue;
       slot_of_point[k] = static_cast<int>(thinned.add(scan.points[k].cast<double>()));
@@ -190,7 +190,7 @@ class ErasorRun {
     }
   }
 
-  /// Takes what stands above the ground out of the bins in which the map is higher.
+  /// Removes map voxels above the ground from the bins in which the map is higher.
   void remove_above_ground(const MapBins& around, const Pose& T_world_sensor, NaiveMap& map) const {
     const StageScope timed(context_.times, "ground fit");
     std::vector<std::vector<VoxelNumber>> chosen;
@@ -222,8 +222,8 @@ class ErasorRun {
     }
   }
 
-  /// Puts back what the query sees in bins that take in its points. After all removals: a voxel of
-  /// the query may reach over the border of two bins.
+  /// Puts back the voxels with query points in bins that reinsert them. It runs after all removals,
+  /// because a query voxel may be in two bins.
   void reinsert(const Scan& scan, const QueryBins& query, NaiveMap& map) const {
     const StageScope timed(context_.times, "reinsertion");
     const double inverse = 1.0 / parameters_.map_voxel_size;

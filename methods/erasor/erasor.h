@@ -8,14 +8,14 @@
 namespace raymoval {
 namespace erasor_method {
 
-/// The frame in which bins lie and heights are measured, see `body_frame`.
+/// The frame of the bins and heights, see `body_frame`.
 enum class Body {
-  kSensor,  ///< That of the sensor, lifted by its height, as in the public code.
+  kSensor,  ///< The sensor frame, lifted by the sensor's height, as in the public code.
   kGround,  ///< On the plane of the ground around the sensor.
 };
 
-/// Parameters of ERASOR. The table in entry.cpp gives them the public code's names, so that
-/// its configuration files carry over. The values are the general set: of the five sets that the
+/// Parameters of ERASOR. Names in the table of entry.cpp are those of the public code, so that its
+/// configuration files can be used. The values are the general set: of the five sets that the
 /// authors published in 2021 (KITTI 00, 01, 02, 05, 07) the median, which for every value is also
 /// the most frequent one.
 struct Parameters {
@@ -51,12 +51,12 @@ struct Parameters {
 /// "ERASOR: Egocentric Ratio of Pseudo Occupancy-based Dynamic Object Removal for Static 3D Point
 /// Cloud Map Building" (Lim, Hwang, Myung, RA-L 2021), written from its description.
 ///
-/// The map of all scans is an evolving set of voxels. Each query scan cuts the map around it into
-/// polar bins and compares the vertical extent of a bin with its own. Where the map reaches much
-/// higher, the bin's map voxels above a fitted ground plane are taken out, and those in which the
-/// query itself has a point are put back. A point is dynamic iff its voxel is out at the end.
+/// The map of all scans is an evolving set of voxels. Each query scan divides the map around it
+/// into polar bins and compares the vertical extents of map and scan in each bin. If the map is
+/// much higher, the bin's map voxels above a fitted ground plane are removed, and voxels with a
+/// query point are put back. A point is dynamic iff its voxel is removed at the end.
 ///
-/// What differs from the public program is listed in the entry's `notes`.
+/// Deviations from the public program: `notes` of the entry.
 /// @throws ConfigurationError if the height window is empty or the ego radius leaves no range.
 std::unique_ptr<Remover> make_erasor(const Parameters& parameters);
 

@@ -20,7 +20,7 @@ VoxelIndex tile_index(const Eigen::Vector3d& point) {
 NaiveMap::NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points)
     : keys_(std::move(keys)), points_(std::move(points)), in_(keys_.size(), 1) {
   Chunks<VoxelNumber> numbers;
-  // Voxels are numbered tile by tile, in each tile as they are given.
+  // Voxels are numbered tile by tile, in the given order within a tile.
   VoxelMap<std::uint32_t> tile_numbers;
   std::vector<VoxelKey> tile_keys;
   std::vector<VoxelNumber> ends;
@@ -78,8 +78,8 @@ void NaiveMap::put_back(VoxelKey key, const Eigen::Vector3d& point) {
   out_.erase(key);
 }
 
-/// The number of a voxel of the map. It stands in the tile of its point, which is that of `point`
-/// or, as a voxel may reach over a tile's edge, one beside it.
+/// The number of a voxel of the map. It is in the tile of `point`, or in a neighbour tile, because
+/// a voxel may cross a tile's edge.
 VoxelNumber NaiveMap::number_of(VoxelKey key, const Eigen::Vector3d& point) const {
   const VoxelIndex own = tile_index(point);
   for (const int dy : {0, -1, 1}) {

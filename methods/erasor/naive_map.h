@@ -12,7 +12,7 @@
 
 namespace raymoval::erasor_method {
 
-/// A vector in chunks, which do not move when it grows: it is never in memory twice.
+/// A vector in chunks, which do not move when it grows, so that it is never in memory twice.
 template <class Value>
 class Chunks {
  public:
@@ -35,8 +35,8 @@ class Chunks {
 using VoxelNumber = std::uint32_t;
 
 /// The map of all scans: filled voxels of the world lattice, each with one point and either in the
-/// map or out of it. Found by place through square tiles, so that looking around a pose costs what
-/// lies there and not what the map holds.
+/// map or removed. Square tiles find voxels by place, so that the cost of a search around a pose
+/// does not depend on the size of the map.
 class NaiveMap {
  public:
   /// Half-open range of voxel numbers that make up one tile.
@@ -44,7 +44,7 @@ class NaiveMap {
     VoxelNumber begin = 0, end = 0;
   };
 
-  /// @param keys a voxel each, none twice
+  /// @param keys one per voxel, without duplicates
   /// @param points of the voxels, world frame, metres
   NaiveMap(Chunks<VoxelKey> keys, Chunks<Eigen::Vector3d> points);
 
@@ -59,7 +59,7 @@ class NaiveMap {
     in_[voxel] = 0;
     out_.insert(keys_[voxel]);
   }
-  /// Puts a voxel back if it is out; does nothing if it is in or not in the map at all.
+  /// Puts a removed voxel back; no effect on other voxels.
   /// @param point any in the voxel
   void put_back(VoxelKey key, const Eigen::Vector3d& point);
   [[nodiscard]] bool is_out(VoxelKey key) const { return out_.contains(key); }
@@ -71,17 +71,17 @@ class NaiveMap {
   Chunks<VoxelKey> keys_;
   Chunks<Eigen::Vector3d> points_;
   std::vector<std::uint8_t> in_;
-  CellSet out_;  ///< The same by key. Few voxels go out and come back, so numbers are not kept.
+  CellSet out_;  ///< The removed voxels by key. They are few, so numbers are not stored.
   VoxelMap<Tile> tiles_;
 };
 
-/// Collects the naive map scan by scan. A voxel's point is the mean over the scans that fill it of
-/// each scan's own mean: the public program thins every scan before it thins their sum.
+/// Collects the naive map scan by scan. A voxel's point is the mean of the scans' mean points in
+/// the voxel, because the public program thins every scan before it thins their sum.
 ///
-/// It takes 41 to 43 bytes a voxel, and the map is made in the same memory.
+/// It takes 41 to 43 bytes per voxel, and the map is made in the same memory.
 class NaiveMapBuilder {
  public:
-  /// Stands for a point that does not belong to the map.
+  /// The key of a point that does not belong to the map.
   static constexpr VoxelKey kNoVoxel = ~VoxelKey{0};
 
   /// Adds a scan: voxel and world point of each of its points.
@@ -99,7 +99,7 @@ class NaiveMapBuilder {
   // By number:
   Chunks<VoxelKey> keys_;
   Chunks<Eigen::Vector3d> sums_of_means_;
-  Chunks<std::uint32_t> scans_;  ///< How many fill the voxel.
+  Chunks<std::uint32_t> scans_;  ///< Number of scans in the voxel.
   VoxelNumbers numbers_;
   // Of the scan that is added:
   std::vector<VoxelOfScan> in_scan_;

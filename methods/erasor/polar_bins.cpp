@@ -60,7 +60,7 @@ BinFinding compare_extents(const BinExtent& map, const BinExtent& query,
   if (map.points == 0) return BinFinding::kQueryOnly;
   const double of_map = map.extent(), of_query = query.extent();
   const double ratio = std::min(of_map, of_query) / std::max(of_map, of_query);
-  // The ratio of two zeros is not a number, which is not less than anything.
+  // The ratio of two zeros is NaN, for which the comparison is false.
   if (!(ratio < parameters.ratio_threshold)) return BinFinding::kEqual;
   return of_map >= of_query ? BinFinding::kMapHigher : BinFinding::kCurrentHigher;
 }
@@ -86,7 +86,7 @@ Mask find_ground(const std::vector<Eigen::Vector3d>& points, const Parameters& p
   for (int iteration = 0; iteration < parameters.plane_iterations; ++iteration) {
     if (std::find(ground.begin(), ground.end(), 1) == ground.end()) return all;
     const Plane plane = fit_plane(points, ground).plane;
-    // Every point below the plane is ground too, however deep, and not only the seeds.
+    // Every point below the plane is ground too, at any depth, not only the seeds.
     for (std::size_t i = 0; i < points.size(); ++i) {
       ground[i] = plane.height_of(points[i]) < parameters.ground_distance ? 1 : 0;
     }

@@ -11,7 +11,7 @@
 
 namespace raymoval::erasor_method {
 
-/// The volume of interest cut into ring by sector bins (R-POD, region-wise pseudo occupancy
+/// The volume of interest, divided into ring by sector bins (R-POD, region-wise pseudo occupancy
 /// descriptor). Points are in the body frame: the sensor's axes, height 0 at the road below it.
 class PolarBins {
  public:
@@ -45,13 +45,13 @@ struct BinExtent {
   [[nodiscard]] double extent() const { return points == 0 ? 0.0 : highest - lowest; }
 };
 
-/// What the scan ratio test finds in a bin.
+/// The result of the scan ratio test in a bin.
 enum class BinFinding {
-  kTooFewPoints,   ///< Too few query points to say anything.
-  kQueryOnly,      ///< The map has nothing here.
-  kMapHigher,      ///< Something tall is in the map that the query does not see.
-  kCurrentHigher,  ///< The query sees something tall that the map does not have.
-  kEqual,          ///< Extents agree; also where both are zero.
+  kTooFewPoints,   ///< Too few query points for a test.
+  kQueryOnly,      ///< The map has no points here.
+  kMapHigher,      ///< The map has a tall object that the query does not have.
+  kCurrentHigher,  ///< The query has a tall object that the map does not have.
+  kEqual,          ///< Extents are similar, or both zero.
 };
 
 /// Compares the vertical extents of a bin (its pseudo occupancies): unequal if the smaller one is
@@ -59,19 +59,19 @@ enum class BinFinding {
 BinFinding compare_extents(const BinExtent& map, const BinExtent& query,
                            const Parameters& parameters);
 
-/// What is done to the map in a bin.
+/// The action on the map in a bin.
 struct BinAction {
-  bool remove = false;    ///< Map voxels above the ground go out.
-  bool reinsert = false;  ///< Voxels with a query point come in.
+  bool remove = false;    ///< Map voxels above the ground are removed.
+  bool reinsert = false;  ///< Voxels with a query point are put back.
 };
 
-/// Version 3: only bins where the map is higher, and taller than half a metre, change.
-/// Version 2: the map must reach above `minimum_top` instead, and bins of equal extents and those
-/// that only the query fills take in the query's points.
+/// Version 3: only bins where the map is higher, and taller than half a metre, change. Version 2:
+/// the map must be higher than `minimum_top` instead, and bins of equal extents and bins with query
+/// points only get the query's points.
 BinAction action_for(BinFinding finding, const BinExtent& map, const Parameters& parameters);
 
 /// R-GPF (region-wise ground plane fitting): which of a bin's map points are ground. `points` are
-/// in the body frame, metres. All of them if there is nothing to start from.
+/// in the body frame, metres. All of them if there are no seeds.
 /// @return 1 = ground, 0 = above it
 Mask find_ground(const std::vector<Eigen::Vector3d>& points, const Parameters& parameters);
 

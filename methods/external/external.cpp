@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "external:";
 
-/// The variables that hold a program to the threads that a method may use, and to one order of
-/// Python's hashes.
+/// Environment variables that limit a program to the method's threads and fix the order of Python's
+/// hashes.
 std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
   std::vector<std::pair<std::string, std::string>> variables = {{"PYTHONHASHSEED", "0"}};
   for (const char* name : {"RAYMOVAL_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS",
@@ -33,13 +33,13 @@ std::vector<std::pair<std::string, std::string>> environment_for(int threads) {
   return variables;
 }
 
-/// Whether somebody who writes a program wants to see what it got and gave.
+/// Whether the working folder is kept for the author of a program.
 bool is_folder_kept() {
   const char* asked = std::getenv("RAYMOVAL_KEEP_WORKING_FOLDER");
   return asked != nullptr && *asked != '\0';
 }
 
-/// The file that `name` starts, as a shell would find it.
+/// The file of the program `name`, searched as by a shell.
 std::string found_program(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* path = std::getenv("PATH");
@@ -54,14 +54,14 @@ std::string found_program(const std::string& name) {
       "the program '{}' is not on PATH; install it, or name it by its path in the manifest", name));
 }
 
-/// What the program printed last, as the end of a message.
+/// The last output of the program, as the end of a message.
 std::string printed_text(const std::string& output) {
   const std::size_t end = output.find_last_not_of(" \n\r\t");
   if (end == std::string::npos) return " and printed nothing";
   return ". It printed last:\n" + output.substr(0, end + 1);
 }
 
-/// What went wrong, to follow the program's name; empty if nothing did.
+/// The error, to follow the program's name; empty if there is none.
 std::string fault_of(const ChildEnd& end, double time_limit_s, double disk_limit_gib) {
   switch (end.kind) {
     case ChildEnd::Kind::kCancelled:
@@ -78,7 +78,7 @@ std::string fault_of(const ChildEnd& end, double time_limit_s, double disk_limit
                  number_text(disk_limit_gib)) +
              printed_text(end.output_tail);
     case ChildEnd::Kind::kOutOfMemory:
-      break;  // There is no limit on memory here: whoever runs the method sets it.
+      break;  // No memory limit is set here: the caller sets it.
     case ChildEnd::Kind::kSignalled:
       return "was ended by " + signal_text(end.code) + printed_text(end.output_tail);
     case ChildEnd::Kind::kExited:
@@ -118,7 +118,7 @@ class External : public Remover {
     return std::max(600.0, 30.0 * static_cast<double>(scans));
   }
 
-  /// Runs the program to its end; what it prints is kept for messages only.
+  /// Runs the program to its end; its output is kept for messages only.
   void run_command(const std::filesystem::path& folder, std::size_t scans,
                    const RunContext& context) const {
     const StageScope timed(context.times, "program");

@@ -18,10 +18,10 @@ namespace raymoval {
 std::optional<std::filesystem::path> external_manifest(const std::string& method_name);
 
 /// The entry of the method that a manifest describes, with one variant, "default". Its version is
-/// the manifest's with a hash of the manifest and of the program's files, so that results of a
-/// program that was changed meanwhile are not taken for those of this one.
-/// @throws ConfigurationError for a manifest that is not as it should be; DataError if a file that
-/// belongs to the program cannot be read
+/// the manifest's with a hash of the manifest and of the program's files, so that results of
+/// another version of the program are not reused.
+/// @throws ConfigurationError for an invalid manifest; DataError if a file that belongs to the
+/// program cannot be read
 MethodEntry external_entry(const std::filesystem::path& manifest);
 
 }  // namespace raymoval

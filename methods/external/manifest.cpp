@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Names stand in folders, tables and `--set NAME.key=value`.
+/// Names are used in folders, tables and `--set NAME.key=value`.
 void check_name(const std::string& name, const std::string& where) {
   const bool legal = name_problem(name).empty() && name.size() <= 60 &&
                      std::all_of(name.begin(), name.end(), [](char c) {
@@ -75,7 +75,7 @@ std::vector<ParameterSpec> parameters_of(const Fields& file, const std::string& 
   return specs;
 }
 
-/// A text, or a whole number, which is taken for one.
+/// A text; a whole number is also accepted as a text.
 std::string version_of(const Fields& file) {
   if (!file.has("version") || !file.member("version").is_number_integer()) {
     return file.text("version");
@@ -104,7 +104,7 @@ std::filesystem::path absolute_file(const std::filesystem::path& path) {
   return found;
 }
 
-/// What "{VARIABLE|default}" stands for.
+/// The value of "{VARIABLE|default}".
 /// @param inside "VARIABLE|default"
 std::string from_environment(const std::string& inside, const std::string& where) {
   const std::size_t bar = inside.find('|');
@@ -140,7 +140,7 @@ bool is_hidden(const std::filesystem::path& path) {
   return name.starts_with('.') || name == "__pycache__";
 }
 
-/// Links to folders are not followed: they may lead in a circle.
+/// Links to folders are not followed, because they may form a cycle.
 void add_files_below(const std::filesystem::path& folder, const std::filesystem::path& here,
                      std::vector<std::string>& found) {
   for (const std::filesystem::path& path : entries_of(folder)) {
@@ -226,7 +226,7 @@ std::vector<std::string> command_line(const Manifest& manifest) {
 std::string program_hash(const Manifest& manifest) {
   ContentHasher hasher;
   const auto add = [&hasher](const std::string& text) {
-    hasher.add(std::to_string(text.size()) + ":");  // so that no two lists read the same
+    hasher.add(std::to_string(text.size()) + ":");  // so that different lists have different texts
     hasher.add(text);
   };
   add(read_text(manifest.path));

@@ -101,7 +101,7 @@ void check_space(double used_bytes, const Manifest& manifest) {
   throw MethodError(fmt::format("{}/{}: {}", kAnswerFolder, file, what));
 }
 
-/// What the program left in the folder for answers, in order of name.
+/// The entries of the answer folder, in order of name.
 std::vector<fs::path> answer_entries(const fs::path& folder) {
   try {
     return entries_of(folder);
@@ -133,7 +133,7 @@ Mask read_answer(const fs::path& folder, std::size_t scan, std::size_t points) {
   const std::string name = scan_file_name(scan, ".label");
   const fs::path path = folder / name;
   std::error_code error;
-  // Reading a pipe would wait for somebody to write, and a device has no end.
+  // Reading a pipe would wait for a writer, and a device has no end.
   if (!fs::is_regular_file(path, error)) throw_answer(name, "expected a file of labels");
   const std::uintmax_t size = fs::file_size(path, error);
   const std::uintmax_t expected = 4 * static_cast<std::uintmax_t>(points);

@@ -12,21 +12,21 @@
 
 namespace raymoval::external_method {
 
-/// The folder below the working folder where a program has to put its answers.
+/// The folder below the working folder for the program's label files.
 inline constexpr const char* kAnswerFolder = "predictions";
 
-/// The words of an answer are those of SemanticKITTI's motion segmentation.
+/// The label words are those of SemanticKITTI's motion segmentation.
 inline constexpr std::uint32_t kKeptWord = 9;
 inline constexpr std::uint32_t kRemovedWord = 251;
 
 /// "000012.bin"
 std::string scan_file_name(std::size_t scan, const char* extension);
 
-/// Writes all that a program gets, in SemanticKITTI layout: velodyne/NNNNNN.bin (x y z reflectance
-/// as float32, in the sensor frame, in metres; reflectance is 0 if the data has none), poses.txt
-/// (a row with the 12 numbers of T_world_sensor for each scan; calib.txt holds the identity),
-/// times.txt (in seconds), sequence.json, sensor.json and parameters.json. The program sees what
-/// every method sees: finite points only, no label, and nothing that tells the data set.
+/// Writes the input of a program, in SemanticKITTI layout: velodyne/NNNNNN.bin (x y z reflectance
+/// as float32, in the sensor frame, in metres; reflectance is 0 if the data has none), poses.txt (a
+/// row with the 12 numbers of T_world_sensor for each scan; calib.txt holds the identity),
+/// times.txt (in seconds), sequence.json, sensor.json and parameters.json. The program gets the
+/// same data as every method: finite points only, no labels, and no hint at the data set.
 /// @return the number of points of each scan
 /// @throws MethodError if the files would take more than the manifest's disk limit; DataError if
 /// the disk is full; Cancelled

@@ -13,9 +13,9 @@ constexpr double kUnitsOfDepth = 255.0;
 // The public program's settings for KITTI.
 constexpr int kRows = 64;             ///< Of a sensor whose steps are unknown.
 constexpr double kNearest = 0.2;      ///< Nearer points are not in the image, metres.
-constexpr double kMargin = 0.2;       ///< Rays end so much before the inpainted depth, metres.
+constexpr double kMargin = 0.2;       ///< Gap before the inpainted depth, metres.
 constexpr int kInpaintingRadius = 3;  ///< Pixels.
-// No sensor of today has finer images; a wrong step then costs no more than the finest would.
+// No current sensor has finer images. This limits the cost of a wrong step.
 constexpr double kMostRows = 720.0, kFinestPixel = 0.05 * kDegree;
 
 /// Rows of a sensor's image: one for each step of its beams.
@@ -26,7 +26,7 @@ int rows_of(const SensorModel& sensor) {
       std::clamp(std::round(height / sensor.elevation_step) + 1.0, 2.0, kMostRows));
 }
 
-/// The image with columns of its other end on either side.
+/// The image, extended on either side by columns of its other end.
 HoleImage wrapped(const HoleImage& image, int wings) {
   HoleImage wide{image.rows, image.columns + 2 * wings, {}, {}};
   for (int row = 0; row < wide.rows; ++row) {
@@ -51,7 +51,7 @@ void fill_holes(HoleImage& image, bool is_full_turn) {
   }
 }
 
-/// Columns with a direction of the sensor in the middle of each.
+/// Sets columns with a direction of the sensor in the middle of each.
 void take_columns_of(const SensorModel& sensor, DepthView& view) {
   const double width = sensor.azimuth_max - sensor.azimuth_min;
   const double steps = std::max(1.0, std::round(width / sensor.azimuth_step));
@@ -74,7 +74,7 @@ DepthView view_for(const SensorModel& sensor, double farthest) {
   view.column_width = view.resolution;
   // A whole number of columns must not become one more by rounding.
   view.columns = std::max(1, static_cast<int>(std::ceil(width / view.resolution - 1e-9)));
-  constexpr double kAsFar = 0.999;  // Steps that are found in scans are not exact.
+  constexpr double kAsFar = 0.999;  // Steps that are estimated from scans are not exact.
   if (sensor.azimuth_step >= kAsFar * view.resolution) take_columns_of(sensor, view);
   view.unit = std::max(std::min(farthest, sensor.range_max), 1.0) / kUnitsOfDepth;
   return view;

@@ -71,7 +71,7 @@ MethodEntry freedom_entry() {
 }
 )";
   entry.notes = {
-      // The page of the method has all.
+      // The page of the method has all notes.
       "As in the public program, levels of the map grow by one round less than those of a scan, a "
       "voxel's neighbours keep their counts when it is no longer free, and scans that pass do not "
       "count in blocks of 8 x 8 x 8 voxels that are all free.",

@@ -34,8 +34,8 @@ void count_up(std::uint8_t& count) {
   if (count < 255) ++count;
 }
 
-/// Calls `visit(block, passed)` for each block of 8 x 8 x 8 voxels with those that rays pass and
-/// the scan does not hit.
+/// Calls `visit(block, passed)` for each block of 8 x 8 x 8 voxels, with the voxels that rays pass
+/// and the scan does not hit.
 template <class Visit>
 void for_each_passed_block(const scan_grid::ScanBlock& columns, Visit&& visit) {
   constexpr int kGroups = scan_grid::kSide / kSide, kLayers = scan_grid::kHeight / kSide;
@@ -83,14 +83,14 @@ class Rays {
   }
 
  private:
-  /// The share of a ray that lies in the range and between the heights of rays.
+  /// The share of a ray within the range and height limits of rays.
   [[nodiscard]] double share_within_reach(const Eigen::Vector3d& end, double length) const {
     double share = std::min(1.0, p_.ray_range / length);
     if (end.z() > p_.ray_highest) share = std::min(share, p_.ray_highest / end.z());
     if (end.z() < p_.ray_lowest) share = std::min(share, p_.ray_lowest / end.z());
     return share;
   }
-  /// Where a ray enters its last voxel; negative if it is the sensor's own.
+  /// Distance at which a ray enters its last voxel; negative if this is the sensor's voxel.
   [[nodiscard]] double entry_of(const VoxelIndex& last, const Eigen::Vector3d& direction) const {
     double entry = -1.0;
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -113,7 +113,7 @@ class Rays {
 void cast_rays(const Scan& scan, const ScanMap& voxels,
                const std::vector<Eigen::Vector3d>& hole_ends, const Parameters& parameters,
                scan_grid::ScanGrid& grid, const RunContext& context) {
-  constexpr std::size_t kRaysInTurn = 4096;  // Between two questions whether to stop.
+  constexpr std::size_t kRaysInTurn = 4096;  // Between two checks for a cancel.
   for (const ScanVoxel& voxel : voxels.voxels()) {
     grid.column(voxel.at).hit |= scan_grid::bit_of(voxel.at);
   }
@@ -148,7 +148,7 @@ void FreeMap::take_hits(ScanMap& scan) {
     if ((block->is_free[place.word] & place.mask()) != 0) voxel.level = Level::kConservative;
     if (block->hits[place.index()] >= p_.counts_to_revert) reverted.push_back(voxel.at);
   }
-  // Not before all are classified, so that their order does not matter.
+  // After all are classified, so that their order has no effect.
   for (const VoxelIndex& voxel : reverted) {
     for_each_around(voxel, 1, [this](const VoxelIndex& at) { revert(at); });
   }
@@ -181,13 +181,13 @@ void FreeMap::pass(const VoxelIndex& index, const BlockBits& passed,
 }
 
 BlockBits FreeMap::all_neighbours_ready(const VoxelIndex& index) const {
-  constexpr int kWide = kSide + 2;  // With a voxel of the neighbours on either side.
+  constexpr int kWide = kSide + 2;  // With one voxel of the neighbours on either side.
   std::array<std::array<std::array<const FreeBlock*, 3>, 3>, 3> around;
   for_each_around(VoxelIndex::Zero(), 1, [&](const VoxelIndex& step) {
     const Eigen::Matrix<std::size_t, 3, 1> place = (step.array() + 1).cast<std::size_t>();
     around[place.x()][place.y()][place.z()] = blocks_.find(index + step);
   });
-  // The column at (x, y), whose voxels stay if those below and above are ready too.
+  // The column at (x, y), with the voxels whose neighbours below and above are ready too.
   const auto eroded_column = [&](std::size_t x, std::size_t y) -> std::uint64_t {
     const auto& blocks = around[(x + kSide - 1) / kSide][(y + kSide - 1) / kSide];
     const auto bits_of = [&](std::size_t layer) -> std::uint64_t {
@@ -220,7 +220,7 @@ std::vector<VoxelIndex> FreeMap::take_passes(const scan_grid::ScanGrid& rays) {
       pass(block, passed, candidates);
     });
   }
-  // Once all are counted, so that their order does not matter.
+  // After all are counted, so that their order has no effect.
   std::vector<VoxelIndex> newly_free;
   for (const Candidates& found : candidates) {
     const BlockBits ready = all_neighbours_ready(found.block);

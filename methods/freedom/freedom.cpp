@@ -14,7 +14,7 @@
 namespace raymoval::freedom_method {
 namespace {
 
-/// What a scan says without the map; its memory is used again for later scans.
+/// Results of a scan without the map; its memory is used again for later scans.
 struct ScanWork {
   std::size_t scan = 0;
   ScanMap voxels;

@@ -8,8 +8,8 @@
 namespace raymoval {
 namespace freedom_method {
 
-/// Parameters of FreeDOM; defaults are those of its public program for KITTI. Their units, ranges
-/// and meanings stand in entry.cpp.
+/// Parameters of FreeDOM; defaults are those of its public program for KITTI. Units, ranges and
+/// meanings are in entry.cpp.
 struct Parameters {
   double sub_voxel_size = 0.1;
   // The points of a scan, and its rays.
@@ -33,19 +33,20 @@ struct Parameters {
 
 /// C. Li et al.: "FreeDOM: Online Dynamic Object Removal Framework for Static Map Construction
 /// Based on Conservative Free Space Estimation", RA-L 2025. Voxels (0.4 m) are free or not;
-/// sub-voxels (0.1 m) keep one point each, with the scan it is of and a level. Per scan:
+/// sub-voxels (0.1 m) keep one point each, with its scan and a level. Per scan:
 ///  1. Scan map: the points in range in voxels.
-///  2. Scan removal: what is hit in free space is conservative, and levels grow around it in the
-///     scan. Free space that is hit scan after scan is free no more.
+///  2. Scan removal: points in free space are conservative, and levels grow around them in the
+///     scan. Free space that several scans hit without a pass in between is no longer free.
 ///  3. Raycast enhancement: ends of rays without a return, where a hole of the depth image is open
 ///     to the top.
-///  4. Free space: rays count the voxels that they pass. A voxel that was passed often enough, as
-///     were its neighbours, is free.
-///  5. Map removal: points in newly free voxels are conservative, and levels grow around them among
+///  4. Free space: the passes of rays through voxels are counted. A voxel is free if it and its
+///     neighbours were passed often enough.
+///  5. Map removal: points in newly free voxels are conservative, and levels grow around them to
 ///     points of the same scan.
-///  6. Integration: a point goes into its sub-voxel unless one of the same or a lower level is
-///     there.
-///  7. The map is what is static after the last scan; a point goes if its sub-voxel is not.
+///  6. Integration: a point is stored in its sub-voxel unless that has a point of the same or a
+///     lower level.
+///  7. The map is the static sub-voxels after the last scan; points in other sub-voxels are
+///     removed.
 /// Decisions and deviations from the public program: `notes` of the entry.
 std::unique_ptr<Remover> make_freedom(const Parameters& parameters);
 

@@ -15,7 +15,7 @@ constexpr double kNever = 1e6;
 
 enum class State : std::uint8_t {
   kWall,     ///< The front never enters.
-  kFar,      ///< The front has not come.
+  kFar,      ///< Not reached yet.
   kBand,     ///< On the front.
   kReached,  ///< The front has passed.
 };
@@ -23,11 +23,11 @@ enum class State : std::uint8_t {
 /// A front that moves with speed 1 from the pixels it begins with (|grad T| = 1).
 class Front {
  public:
-  /// @param states a pixel each, in rows of `width`; those at the edge are walls
+  /// @param states one per pixel, in rows of `width`; edge pixels are walls
   Front(std::vector<State>& states, std::vector<double>& times, int width)
       : states_(states), times_(times), width_(width) {}
 
-  /// Moves the front from the pixels of `edge` (in order) as far as `limit`. `enter(pixel)` is
+  /// Moves the front from the pixels of `edge` (in order) up to the time `limit`. `enter(pixel)` is
   /// called for each pixel when its time is known for the first time.
   template <class Enter>
   void move(const std::vector<int>& edge, double limit, Enter&& enter) {
@@ -63,7 +63,7 @@ class Front {
     }
   }
 
-  /// The time at which the front comes from the pixels around that it has passed.
+  /// The time at which the front arrives from the reached pixels around.
   [[nodiscard]] double solve(int pixel) const {
     const double upright = std::min(passed(pixel - width_), passed(pixel + width_));
     const double level = std::min(passed(pixel - 1), passed(pixel + 1));
@@ -89,7 +89,7 @@ class Front {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> band_;
 };
 
-/// Fills one image, which lies in a frame of pixels that nothing is known of.
+/// Fills one image, which has a border of unknown pixels.
 class Inpainting {
  public:
   Inpainting(const HoleImage& image, int radius)
@@ -131,7 +131,7 @@ class Inpainting {
   /// A pixel within the radius.
   struct Near {
     int offset;
-    int x, y;        ///< The way from it, pixels.
+    int x, y;        ///< The offset from it, pixels.
     double inverse;  ///< One over the third power of the distance.
   };
 
@@ -159,7 +159,7 @@ class Inpainting {
     }
   }
 
-  /// Moves a front from the edge into what is known (1) or not (0).
+  /// Moves a front from the edge into known (1) or unknown (0) pixels.
   template <class Enter>
   void move_into(int known, double limit, Enter&& enter) {
     std::vector<State> states(is_image_.size(), State::kWall);
@@ -170,7 +170,7 @@ class Inpainting {
     front.move(edge_, limit, enter);
   }
 
-  /// The difference of `field` across a pixel, by those of its two sides for which `is_there`.
+  /// The difference of `field` across a pixel, from its sides for which `is_there` is true.
   template <class Field, class IsThere>
   [[nodiscard]] static double slope(const Field& field, int pixel, int step, double central,
                                     IsThere&& is_there) {
@@ -182,7 +182,7 @@ class Inpainting {
   }
 
   void fill(int pixel) {
-    constexpr double kCentral = 2.0;  // OpenCV doubles where it should halve.
+    constexpr double kCentral = 2.0;  // OpenCV doubles instead of halving.
     const double time = times_[at(pixel)];
     const auto is_known = [this](int of) { return is_known_[at(of)] != 0; };
     const auto has_time = [&](int of) { return is_known(of) || is_image_[at(of)] == 0; };

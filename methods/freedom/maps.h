@@ -19,13 +19,13 @@
 
 namespace raymoval::freedom_method {
 
-/// How surely something does not stay where it was seen. A point replaces those of a higher level.
+/// The certainty that a point is dynamic. A point replaces points of a higher level.
 enum class Level : std::uint8_t {
   kStatic,
-  kAggressive,    ///< Near a moderate one.
-  kModerate,      ///< Beside a conservative one.
+  kAggressive,    ///< Near a moderate point.
+  kModerate,      ///< Beside a conservative point.
   kConservative,  ///< In free space.
-  kEmpty,         ///< There is no point any more.
+  kEmpty,         ///< The point was removed.
 };
 
 /// The voxel that a sub-voxel lies in.
@@ -44,13 +44,14 @@ inline VoxelIndex sub_voxel_at(const VoxelIndex& voxel, int place) {
 struct ScanVoxel {
   VoxelIndex at = VoxelIndex::Zero();
   Level level = Level::kStatic;
-  std::uint64_t sub_voxels = 0;  ///< Those with a point, a bit each by their places.
-  /// Of the points' places in the voxel, in whole 2^-24 of a voxel: sums do not depend on order.
+  std::uint64_t sub_voxels = 0;  ///< The sub-voxels with a point, one bit each.
+  /// Sum of the points' positions in the voxel, in units of 2^-24 voxel, so that it does not depend
+  /// on their order.
   Eigen::Matrix<std::int64_t, 3, 1> sum = Eigen::Matrix<std::int64_t, 3, 1>::Zero();
   std::int64_t points = 0;
 
   void add(const Eigen::Vector3d& in_voxels, int place) {
-    // Half a unit more and cut off: `std::round` takes as long as all the rest.
+    // Adds half a unit and truncates: `std::round` takes as long as all other work.
     sum += (((in_voxels - at.cast<double>()) * kUnit).array() + 0.5).cast<std::int64_t>().matrix();
     sub_voxels |= std::uint64_t{1} << place;
     ++points;
@@ -69,7 +70,7 @@ class ScanMap {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  /// Replaces what there was; the memory is used again.
+  /// Replaces the content; the memory is used again.
   void fill(const Scan& scan, const Parameters& parameters);
 
   [[nodiscard]] std::vector<ScanVoxel>& voxels() { return voxels_; }
@@ -90,7 +91,7 @@ class ScanMap {
 /// One bit for each voxel of a block of 8 x 8 x 8: word x, byte y, bit z.
 using BlockBits = std::array<std::uint64_t, 8>;
 
-/// How often the voxels of a block were passed and hit, 1.2 KiB.
+/// Numbers of passes and hits of the voxels of a block, 1.2 KiB.
 struct FreeBlock {
   std::array<std::uint8_t, 512> passes{};  ///< Scans that passed since the last hit.
   std::array<std::uint8_t, 512> hits{};    ///< Scans that hit since the last pass.
@@ -98,25 +99,25 @@ struct FreeBlock {
   BlockBits is_free{};
 };
 
-/// First part of step 4: marks the voxels of a scan as hit in `grid` (empty before), and as free
-/// those that rays pass on their way to the voxels' mean points and to `hole_ends`. A ray stops
-/// before a voxel that the scan hits, and before the voxel that it ends in.
+/// First part of step 4: marks in `grid` (empty before) the voxels of a scan as hit, and the voxels
+/// on the rays to the voxels' mean points and to `hole_ends` as free. A ray stops before a voxel
+/// that the scan hits, and before the voxel that it ends in.
 /// @param hole_ends ends of rays without a return, sensor frame, metres
-/// @param context is asked now and then whether to stop
+/// @param context is checked for a cancel now and then
 /// @throws DataError for rays that cross too many voxels; Cancelled
-/// @note voxels which a ray crosses for less than a millionth of a voxel just before the one that
-/// it ends in are not marked
+/// @note a voxel that a ray crosses for less than a millionth of a voxel just before its last voxel
+/// is not marked
 void cast_rays(const Scan& scan, const ScanMap& voxels,
                const std::vector<Eigen::Vector3d>& hole_ends, const Parameters& parameters,
                scan_grid::ScanGrid& grid, const RunContext& context = {});
 
-/// Free space as all scans so far know it. Counts stop at 255, the largest threshold.
+/// Free space from all scans so far. Counts stop at 255, the largest threshold.
 class FreeMap {
  public:
   explicit FreeMap(const Parameters& parameters) : p_(parameters) {}
 
-  /// First part of step 2: counts the voxels of a scan as hit. Those that are free become
-  /// conservative; those hit too often, and their neighbours, are free no more.
+  /// First part of step 2: counts the voxels of a scan as hit. Hit voxels that are free become
+  /// conservative. Voxels that are hit too often, and their neighbours, are no longer free.
   void take_hits(ScanMap& scan);
   /// Second part of step 4: counts the voxels that rays of a scan pass. @return the newly free ones
   [[nodiscard]] std::vector<VoxelIndex> take_passes(const scan_grid::ScanGrid& rays);
@@ -138,7 +139,7 @@ class FreeMap {
   SparseBlocks<FreeBlock> blocks_;
 };
 
-/// What is known of a sub-voxel: which scan its point is of, and that point's level.
+/// The state of a sub-voxel: the scan and the level of its point.
 struct SubVoxel {
   static constexpr std::uint32_t kMostScans = 1U << 29;
 
@@ -160,11 +161,11 @@ struct SubVoxel {
 /// The sub-voxels of a voxel that ever had a point. They are packed in the order of their places.
 class SubVoxels {
  public:
-  /// The one at a place; it is made, empty, if there is none.
+  /// The sub-voxel at a place; an empty one is made if there is none.
   SubVoxel& at(int place);
   [[nodiscard]] std::span<SubVoxel> all() { return {cells_.get(), count()}; }
   [[nodiscard]] std::span<const SubVoxel> all() const { return {cells_.get(), count()}; }
-  /// The places of `all`, a bit each.
+  /// The places of `all`, one bit each.
   [[nodiscard]] std::uint64_t places() const { return places_; }
   [[nodiscard]] bool holds(std::size_t scan) const;
 
@@ -178,12 +179,12 @@ class SubVoxels {
 };
 
 /// The points of all scans so far, one in a sub-voxel, without their coordinates. It takes about 40
-/// bytes a voxel and 6 for each of its sub-voxels.
+/// bytes per voxel and 6 per sub-voxel.
 class StaticMap {
  public:
   /// Step 5: raises levels in and around newly free voxels, scan by scan.
   void remove(const std::vector<VoxelIndex>& newly_free);
-  /// Step 6: takes in the points of scan number `scan`.
+  /// Step 6: integrates the points of scan number `scan`.
   void integrate(const ScanMap& voxels, std::size_t scan);
   /// Step 7: the sub-voxels that had points and have no static one.
   [[nodiscard]] CellSet removed() const;
@@ -215,8 +216,8 @@ class StaticMap {
   VoxelNumbers numbers_;
   std::vector<VoxelKey> keys_;
   std::vector<SubVoxels> voxels_;
-  // Of step 5 at hand.
-  std::vector<std::uint32_t> reached_;  ///< By voxel: the growth that reached it last.
+  // Of the current step 5.
+  std::vector<std::uint32_t> reached_;  ///< By voxel: the last growth that reached it.
   std::uint32_t growths_ = 0;
   std::vector<Number> touched_;
 };

@@ -11,7 +11,7 @@ void ScanMap::fill(const Scan& scan, const Parameters& parameters) {
   const double inverse = 1.0 / parameters.sub_voxel_size;
   const double voxels_a_metre = 1.0 / parameters.voxel_size();
   const RangeLimits ranges{parameters.minimum_range, parameters.maximum_range};
-  std::uint32_t last = kNone;  // Points that follow each other mostly share their voxel.
+  std::uint32_t last = kNone;  // Consecutive points mostly share their voxel.
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d local = point.cast<double>();
     const Eigen::Vector3d from_sensor = scan.T_world_sensor.linear() * local;

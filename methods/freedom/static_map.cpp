@@ -7,7 +7,7 @@
 namespace raymoval::freedom_method {
 namespace {
 
-/// How many sub-voxels there is room for where there are `count`: memory grows in few steps.
+/// The capacity for `count` sub-voxels: memory grows in few steps.
 constexpr std::size_t room_for(std::size_t count) {
   return (count + 7) / 8 * 8;
 }

@@ -25,7 +25,8 @@ BeliefModel::BeliefModel(const Parameters& parameters)
 }
 
 bool BeliefModel::is_far(double likelihood) const {
-  // At worst, occupied is as likely before as it can be. What comes out falls with the distance.
+  // In the worst case, occupied has its largest prior probability. The result decreases with the
+  // distance.
   const double stays = likelihood * (1.0 - transition_), goes = (1.0 - likelihood) * transition_;
   const double occupied = stays / (stays + goes);
   return 1.0 - occupied == 1.0 && transition_ + keep_ * occupied == transition_;
@@ -129,14 +130,14 @@ void BeliefMap::forget(const Eigen::Vector3d& sensor) {
   });
 }
 
-/// Whether all of a brick is so near to the sensor that nothing of it is forgotten.
+/// Whether the whole brick is so near to the sensor that none of its voxels is forgotten.
 bool BeliefMap::is_within(const VoxelIndex& first, const Eigen::Vector3d& sensor) const {
   const Eigen::Vector3d low = lattice_.position(first) - sensor;
   const Eigen::Vector3d high = low.array() + kBrickSide * lattice_.size();
   return low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() < range_;
 }
 
-/// The place of a brick's lowest voxel in its block.
+/// The position of a brick's lowest voxel in its block.
 VoxelIndex BeliefMap::corner_of(std::size_t brick) {
   const auto at = static_cast<int>(brick);
   return VoxelIndex(at >> 5, at >> 3 & 3, at & 7) * kBrickSide;

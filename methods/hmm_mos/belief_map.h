@@ -14,26 +14,26 @@
 
 namespace raymoval::hmm_mos_method {
 
-/// The hidden Markov model of one voxel. Of its three states the first, unobserved, has probability
-/// 0 from the first observation on, so that one number is kept: the probability of occupied.
+/// The hidden Markov model of one voxel. Of its three states, unobserved has probability 0 after
+/// the first observation, so that one number is stored: the probability of occupied.
 class BeliefModel {
  public:
-  /// Before the first observation: as likely occupied as free, which is what a step from the state
-  /// unobserved comes to.
+  /// Before the first observation: occupied and free are equally likely, as after a step from the
+  /// state unobserved.
   static constexpr double kUnobserved = 0.5;
-  /// More squared distances than this are never told apart.
+  /// The largest number of squared distances that are distinguished.
   static constexpr int kMostDistances = 254;
 
-  /// @throws ConfigurationError if it would have to tell more than `kMostDistances` apart
+  /// @throws ConfigurationError if more than `kMostDistances` must be distinguished
   explicit BeliefModel(const Parameters& parameters);
 
-  /// From this squared distance on, in voxels, all are alike: after an observation at it or farther
-  /// off, occupied is so unlikely that the next step does not feel how much so, as double precision
-  /// has it, and the state is free.
+  /// From this squared distance on, in voxels, all distances are equivalent: after such an
+  /// observation the state is free, and occupied is so unlikely that its probability does not
+  /// change the next step in double precision.
   [[nodiscard]] int far() const { return static_cast<int>(likelihood_.size()); }
 
   /// Step 4: the probability of occupied after one more observation.
-  /// @param occupied the same before
+  /// @param occupied the probability before the observation
   /// @param distance squared, in voxels, to the nearest occupied voxel; not above `far()`
   [[nodiscard]] double after(double occupied, int distance) const {
     if (distance == 0) return 1.0;
@@ -53,22 +53,22 @@ class BeliefModel {
   std::vector<double> likelihood_;  ///< p_o by squared distance.
 };
 
-/// What is believed of the voxels around the sensor that were observed lately.
+/// The belief on recently observed voxels around the sensor.
 class BeliefMap {
  public:
   explicit BeliefMap(const Parameters& parameters);
 
   /// Steps 3 and 4 for the observed voxels of a scan.
-  /// @param before the scan before; empty if there is none
+  /// @param before the previous scan; empty if there is none
   void observe(const ScanVoxels& now, const ScanVoxels& before, const RunContext& context);
-  /// The voxels that are occupied in the scan observed last and were free before.
+  /// The voxels that are occupied in the last observed scan and were free before.
   [[nodiscard]] const std::vector<VoxelIndex>& appeared() const { return appeared_; }
-  /// Step 5: forgets voxels that are far from the sensor or were not seen for long, after each
-  /// scan.
+  /// Step 5, after each scan: forgets voxels that are far from the sensor or were not seen for
+  /// long.
   /// @param sensor world position, metres
   void forget(const Eigen::Vector3d& sensor);
 
-  /// Of a column of voxels, those whose state is known: occupied or free.
+  /// The voxels of a column with a known state: occupied or free.
   [[nodiscard]] std::uint64_t known(const VoxelIndex& block, std::size_t column) const {
     const Block* found = blocks_.find(block);
     return found == nullptr ? 0 : found->known[column];
@@ -77,7 +77,7 @@ class BeliefMap {
   void forget_all();
   /// The voxels that were free when they were last forgotten; none unless `offline`.
   [[nodiscard]] const CellSet& forgotten_free() const { return forgotten_free_; }
-  /// How many voxels are in the map, for tests. The time grows with the map.
+  /// The number of voxels in the map, for tests. The time grows with the map.
   [[nodiscard]] std::size_t size() const;
 
  private:
@@ -91,19 +91,19 @@ class BeliefMap {
   struct Brick {
     Brick() { occupied.fill(BeliefModel::kUnobserved); }
     std::array<double, kBrickVoxels> occupied;    ///< Probability.
-    std::array<ScanNumber, kBrickVoxels> seen{};  ///< When last; 0 if it is not in the map.
-    /// No voxel was last seen earlier, or later.
+    std::array<ScanNumber, kBrickVoxels> seen{};  ///< Last scan; 0 if it is not in the map.
+    /// Bounds of `seen` over its voxels.
     ScanNumber oldest = std::numeric_limits<ScanNumber>::max(), newest = 0;
   };
   struct Block {
     explicit Block(const VoxelIndex& position) : at(position) {}
     VoxelIndex at;
     std::array<std::uint64_t, kColumns> known{};  ///< By column.
-    std::array<std::uint64_t, kColumns> free{};   ///< As far as known.
+    std::array<std::uint64_t, kColumns> free{};   ///< Of the known voxels.
     std::array<std::unique_ptr<Brick>, kBricks> bricks;
-    std::vector<VoxelIndex> appeared;  ///< In the scan observed last.
+    std::vector<VoxelIndex> appeared;  ///< In the last observed scan.
   };
-  /// Where a voxel stands in its block.
+  /// The position of a voxel in its block.
   static std::size_t brick_of(std::size_t column, int height);
   static std::size_t place_of(std::size_t column, int height);
   static VoxelIndex corner_of(std::size_t brick);
@@ -117,15 +117,15 @@ class BeliefMap {
 
   Lattice lattice_;
   BeliefModel model_;
-  double range_;  ///< What is farther from the sensor is forgotten, metres.
-  int scans_;     ///< What was not seen for more is forgotten.
+  double range_;  ///< Voxels farther from the sensor are forgotten, metres.
+  int scans_;     ///< Voxels not seen for more scans are forgotten.
   bool offline_;
   ScanNumber now_ = 0;
   CellSet forgotten_free_;
   SparseBlocks<Block> blocks_;
   std::vector<VoxelIndex> appeared_;
   Workspaces<DistanceField> distances_;
-  ScanGrid beyond_ = empty_grid();  ///< Of the scan observed last and the one before.
+  ScanGrid beyond_ = empty_grid();  ///< Of the last two observed scans.
 };
 
 }  // namespace raymoval::hmm_mos_method

@@ -58,7 +58,7 @@ constexpr std::uint64_t low_bits(int count) {
   return (std::uint64_t{1} << count) - 1;
 }
 
-/// What is occupied in a column is at no distance from it.
+/// Occupied voxels in a column have distance 0 to the column.
 constexpr std::array<std::uint8_t, kHeight> kNotAway{};
 
 }  // namespace
@@ -146,7 +146,7 @@ void DistanceField::find_occupied(int x) {
 
 /// @param occupied of the column, below the block, in it, and above
 void DistanceField::fill_column(const std::array<std::uint64_t, 3>& occupied, Row& row) const {
-  constexpr std::ptrdiff_t kHigher = -1;  // The next higher voxel's ramp begins a byte before.
+  constexpr std::ptrdiff_t kHigher = -1;  // The next higher ramp begins a byte earlier.
   const std::array<int, 3> first{-margin_, 0, kHeight};
   row.fill(0);
   for (std::size_t z = 0; z < 3; ++z) {

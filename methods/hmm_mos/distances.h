@@ -10,32 +10,32 @@
 
 namespace raymoval::hmm_mos_method {
 
-/// Rows of bytes that lie `stride` bytes apart, of which some are looked at.
+/// Rows of bytes, `stride` bytes apart, of which some are used.
 struct NearRows {
-  const std::uint8_t* rows = nullptr;  ///< Where row 0 is; 64 bytes each.
+  const std::uint8_t* rows = nullptr;  ///< Row 0; 64 bytes each.
   std::ptrdiff_t stride = 0;
-  std::uint64_t which = 0;             ///< Bit k: row k is looked at.
-  const std::uint8_t* away = nullptr;  ///< By row, how much less near it is.
+  std::uint64_t which = 0;             ///< Bit k: row k is used.
+  const std::uint8_t* away = nullptr;  ///< By row: its loss of nearness.
 };
 
 /// The innermost loop of the distances, compiled for each instruction set: raises bytes of the row
-/// `nearest` to the largest of those in the rows, each less what is away, or 0 if that is less:
-/// those from `first` to `last`, and perhaps others.
+/// `nearest` to the largest byte of the rows minus `away` of its row, at least 0. It does so for
+/// the bytes from `first` to `last`, and possibly for others.
 using TakeNearest = void (*)(const NearRows& rows, std::size_t first, std::size_t last,
                              std::uint8_t* nearest);
 
 /// Step 3: squared distances from the observed voxels of a block to the nearest occupied voxel of
 /// this scan and the one before, in voxels, also to those beyond the range. They are exact below a
-/// bound, from which on all are alike (Euclidean distance transform, one axis after the other).
+/// bound and equal to it beyond (Euclidean distance transform, one axis after the other).
 ///
-/// Inside, bytes hold how much nearer than the bound something is: 0 is as far as the bound, and
-/// the nearest has the largest.
+/// Internally, bytes hold a nearness: the bound minus the squared distance, so that 0 means the
+/// bound.
 class DistanceField {
  public:
   /// @param far the bound, 1 to 254
   explicit DistanceField(int far);
 
-  /// @param beyond what both scans occupy beyond their ranges, see `find_beyond`
+  /// @param beyond occupied voxels of both scans beyond their ranges, see `find_beyond`
   /// @param block of `now`
   void find(const ScanGrid& now, const ScanGrid& before, const ScanGrid& beyond,
             const ScanBlock& block);
@@ -66,13 +66,15 @@ class DistanceField {
   std::size_t lowest_ = 0, highest_ = 0;  ///< Heights of the block that are observed.
   /// Of each grid, the blocks around by their offsets, x slowest; or null.
   std::array<std::array<const ScanBlock*, 27>, 3> around_{};
-  /// What the grids occupy at some x, by y with margins: below the block, in it, and above.
+  /// Occupied voxels of the grids at some x, by y with margins: below the block, in it, and above.
   std::array<std::array<std::uint64_t, 64>, 3> occupied_{};
-  std::vector<Row> of_columns_;         ///< To what is in the same column; by x, y, with margins.
-  std::vector<Row> of_rows_;            ///< To what has the same x; by x, with margins, and y.
-  std::vector<Row> nearness_;           ///< By column of the block.
-  std::vector<std::uint64_t> columns_;  ///< By x: bit y, if `of_columns_` has something there.
-  std::array<std::uint64_t, kSide> rows_{};  ///< By y: bit x, if `of_rows_` has something there.
+  std::vector<Row> of_columns_;  ///< To voxels in the same column; by x, y, with margins.
+  std::vector<Row> of_rows_;     ///< To voxels with the same x; by x, with margins, and y.
+  std::vector<Row> nearness_;    ///< By column of the block.
+  std::vector<std::uint64_t>
+      columns_;  ///< By x: bit y if that column of `of_columns_` is not empty.
+  std::array<std::uint64_t, kSide>
+      rows_{};  ///< By y: bit x if that row of `of_rows_` is not empty.
 };
 
 }  // namespace raymoval::hmm_mos_method

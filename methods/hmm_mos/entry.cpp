@@ -89,7 +89,7 @@ MethodEntry hmm_mos_entry() {
 }
 )";
   entry.notes = {
-      // The page of the method has all.
+      // The page of the method has all notes.
       "The default is the public program with its lattice; offline is without it.",
       "Nothing depends on the sensor but its range. Of the public configurations' least ranges "
       "the smallest is the default, which leaves out the fewest points.",

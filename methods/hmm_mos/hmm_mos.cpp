@@ -31,7 +31,7 @@ Mask mask_of(const Scan& scan, const Parameters& parameters, Moves&& moves) {
   return mask;
 }
 
-/// Steps 3 to 11 for a scan. @param before the voxels of the scan before, replaced by this scan's
+/// Steps 3 to 11 for a scan. @param before the voxels of the previous scan, replaced by this scan's
 void take_in(const Scan& scan, ScanVoxels& voxels, const RunContext& context, ScanVoxels& before,
              BeliefMap& map, MovingVoxels& moving) {
   {

@@ -8,10 +8,10 @@
 namespace raymoval {
 namespace hmm_mos_method {
 
-/// Parameters of HMM-MOS; defaults are those of its public program's configurations. Their units,
-/// ranges and meanings stand in entry.cpp.
+/// Parameters of HMM-MOS; defaults are those of its public program's configurations. Units, ranges
+/// and meanings are in entry.cpp.
 struct Parameters {
-  // What is taken of a scan.
+  // The used points of a scan.
   double voxel_size = 0.25;
   double min_range = 0.5;
   double max_range = 50.0;
@@ -19,33 +19,34 @@ struct Parameters {
   double spread = 1.0;
   double transition = 0.005;
   double belief = 0.99;
-  // What is forgotten.
+  // Forgetting.
   int map_scans = 300;
   double map_range_factor = 1.5;
-  // What changed.
+  // Change.
   int reach = 2;
   int window_scans = 5;
   double least_threshold = 3.0;
-  // As the public program does it.
+  // Behaviour of the public program.
   bool public_lattice = true;
-  // Ours.
+  // Additions of this project.
   bool offline = false;
 };
 
 /// V. Bhandari, J. James, T. Phillips, P. R. McAree: "Moving Object Segmentation in Point Cloud
 /// Data using Hidden Markov Models", IROS 2024 workshop. For each scan:
-///  1. Its points' voxels are occupied.
-///  2. Voxels on the rays to them, and they themselves, are observed.
-///  3. Each observed voxel has a distance to the nearest voxel that is occupied now or was in the
-///     scan before.
-///  4. By it, a hidden Markov model of each voxel (unobserved, occupied, free) takes a step. The
-///     state is that of which the model is sure.
-///  5. What is far from the sensor, or was not seen for long, is forgotten.
-///  6. An occupied voxel's score is how many of the cube around it became occupied just now, less
-///     those of which nothing is known.
-///  7. The median of the neighbours' scores; 8. the sum over the last scans.
-///  9. A histogram's threshold parts moving voxels from the rest; 10. those of the scan before stay
-///     for less; 11. their neighbours move as well.
+///  1. The voxels of its points are occupied.
+///  2. These voxels and the voxels on the rays to them are observed.
+///  3. Each observed voxel has a distance to the nearest voxel that is occupied now or was occupied
+///     in the previous scan.
+///  4. With this distance, a hidden Markov model of each voxel (unobserved, occupied, free) takes a
+///     step. A voxel has a state if the model is sure of it.
+///  5. Voxels far from the sensor, or not seen for long, are forgotten.
+///  6. The score of an occupied voxel is the number of voxels in the cube around it that became
+///     occupied in this scan, minus the number of unknown voxels.
+///  7. The score becomes the median of the neighbours' scores; 8. scores are summed over the last
+///     scans.
+///  9. A threshold on the histogram of scores separates moving voxels; 10. voxels that moved in the
+///     previous scan need a lower score; 11. neighbours of moving voxels move too.
 ///  12. Their points are removed, unless the threshold is so low that nothing moves.
 /// Decisions and deviations from the public program: `notes` of the entry.
 std::unique_ptr<Remover> make_hmm_mos(const Parameters& parameters);

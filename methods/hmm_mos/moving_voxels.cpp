@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kBins = 100;  ///< Of the histogram of scores; a constant of the public program.
 
-/// Calls `visit(block, column, bits, shift)` for each column of voxels that a cube around `voxel`
-/// cuts: of the column's word, those `bits` are in the cube.
+/// Calls `visit(block, column, bits, shift)` for each column that intersects a cube around `voxel`:
+/// `bits` of the column's word are in the cube.
 template <class Visit>
 void for_columns_of_cube(const VoxelIndex& voxel, int reach, Visit&& visit) {
   const int low = voxel.z() - reach, high = voxel.z() + reach;
@@ -30,8 +30,8 @@ void for_columns_of_cube(const VoxelIndex& voxel, int reach, Visit&& visit) {
   }
 }
 
-/// Voxels by bin. A bin has the scores above its lower edge, up to its upper one; the first has the
-/// lowest score as well. Edges are compared in whole numbers.
+/// Numbers of voxels by bin. A bin has the scores above its lower edge, up to its upper edge; the
+/// first bin also has the lowest score. Edges are compared in whole numbers.
 std::vector<std::int64_t> histogram(const std::vector<ScoreCount>& counts, int bins, int lowest,
                                     int highest) {
   std::vector<std::int64_t> voxels(static_cast<std::size_t>(bins));
@@ -57,7 +57,7 @@ Scores change_scores(const ScanGrid& now, const BeliefMap& map, int reach) {
           }
         });
   }
-  // Into another table: one that something is erased from moves others, and may show them twice.
+  // Into another table: erasing moves other entries of a table, which may then be visited twice.
   Scores positive;
   for (const auto& [key, appeared] : scores) {
     int score = appeared;
@@ -120,7 +120,7 @@ std::optional<double> otsu_threshold(const std::vector<ScoreCount>& counts, int 
   }
   double below = 0.0, below_sum = 0.0, best = 0.0;
   int threshold = 0;
-  for (int i = 0; i < bins; ++i) {  // What is below bin i against the rest.
+  for (int i = 0; i < bins; ++i) {  // Bins below i against the rest.
     const double above = all - below;
     if (below > 0.0 && above > 0.0) {
       const double difference = below_sum / below - (all_sum - below_sum) / above;

@@ -9,11 +9,11 @@
 
 namespace raymoval::hmm_mos_method {
 
-/// Scores of voxels. What is not listed has 0.
+/// Scores of voxels. Missing voxels have score 0.
 using Scores = VoxelMap<int>;
 
-/// Step 6: for each occupied voxel the voxels around it that appeared with this scan, less those of
-/// unknown state, where that is above 0.
+/// Step 6: for each occupied voxel, the number of voxels around it that appeared in this scan,
+/// minus those of unknown state, if this is above 0.
 Scores change_scores(const ScanGrid& now, const BeliefMap& map, int reach);
 
 /// Step 7: each occupied voxel gets the median score of the occupied voxels among its 26 neighbours
@@ -38,26 +38,26 @@ class ScoreWindow {
   Scores sums_;
 };
 
-/// How many voxels have a score.
+/// The number of voxels with a score.
 struct ScoreCount {
   int score = 0;
   std::int64_t voxels = 0;
 };
 
-/// Step 9: the score that parts best what is above it from the rest (Otsu 1979), of those between
-/// bins of a histogram. Of several that part equally well it is the highest.
+/// Step 9: the bin edge of a histogram that best separates higher scores from the rest (Otsu 1979);
+/// the highest of several equally good edges.
 /// @param counts each score once, in any order
-/// @return nothing if all scores are equal, or there are none
+/// @return no value if all scores are equal, or there are none
 std::optional<double> otsu_threshold(const std::vector<ScoreCount>& counts, int bins);
 
-/// Steps 6 to 12: which occupied voxels of each scan move, by what changed with it and with the
-/// scans just before.
+/// Steps 6 to 12: the moving voxels of each scan, from changes in this scan and the scans just
+/// before.
 class MovingVoxels {
  public:
   explicit MovingVoxels(const Parameters& parameters)
       : parameters_(parameters), window_(parameters.window_scans) {}
 
-  /// Takes the next scan in.
+  /// Adds the next scan.
   /// @param map that has observed the scan
   void add(const ScanGrid& now, const BeliefMap& map);
 
@@ -66,7 +66,8 @@ class MovingVoxels {
 
  private:
   void find_dynamic(const ScanGrid& now);
-  /// The scores of the window at the voxels that are occupied now, those without one included.
+  /// The counts of the window's scores over the voxels that are occupied now, including voxels
+  /// without a score.
   [[nodiscard]] std::vector<ScoreCount> count_scores(const ScanGrid& now) const;
 
   Parameters parameters_;

@@ -10,7 +10,7 @@ namespace raymoval::hmm_mos_method {
 namespace {
 
 /// A line from voxel to voxel by whole numbers (Bresenham). Each step goes one voxel along the axis
-/// with the largest difference, and along another where its error is used up.
+/// with the largest difference, and along another axis if its error overflows.
 class LineWalk {
  public:
   LineWalk(ScanGrid& grid, const VoxelIndex& from, const VoxelIndex& to)
@@ -40,7 +40,7 @@ class LineWalk {
       place_[axis] -= step_[axis] * side(axis);
     }
   }
-  /// Marks and advances so many times.
+  /// Marks and advances `steps` times.
   void mark_and_advance(int steps) {
     while (steps > 0) {
       const int inside = std::min(steps, steps_inside());
@@ -56,7 +56,7 @@ class LineWalk {
  private:
   static int side(Eigen::Index axis) { return axis == 2 ? kHeight : kSide; }
 
-  /// How many steps stay in the block.
+  /// The number of steps that stay in the block.
   [[nodiscard]] int steps_inside() const {
     int steps = length_;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -67,8 +67,8 @@ class LineWalk {
     return steps;
   }
 
-  /// `mark_and_advance` within the block. A place is one number, so that whole-number arithmetic
-  /// without branches, which no processor could foretell, goes from one to the next.
+  /// `mark_and_advance` within the block. A place is one number, so that integer arithmetic
+  /// advances it without branches, which processors cannot predict.
   void mark_inside(int steps) {
     constexpr std::array<int, 3> kStride{kSide * kHeight, kHeight, 1};
     const auto one = static_cast<Eigen::Index>(main_ == 0 ? 1 : 0);
@@ -105,7 +105,7 @@ class LineWalk {
   VoxelIndex place_;  ///< Of the voxel in its block.
 };
 
-/// Marks what a scan observes.
+/// Marks the voxels that a scan observes.
 class Observation {
  public:
   Observation(const Lattice& lattice, const Eigen::Vector3d& sensor, double max_range,
@@ -123,11 +123,11 @@ class Observation {
   /// Marks the voxels of a ray that are within range.
   void cast_ray(const VoxelIndex& end) {
     LineWalk walk(grid_, sensor_voxel_, end);
-    // What lies so many steps along the ray is surely within range, or beyond: places of voxels
-    // differ from points on the ray by less than kSlack.
+    // Numbers of steps that are certainly within range, or beyond: voxel positions differ from
+    // points on the ray by less than kSlack.
     constexpr double kSlack = 4.0;
     const double voxels = (end - sensor_voxel_).cast<double>().norm();
-    const double steps = voxels > 0.0 ? walk.length() / voxels : 1.0;  // To a voxel of way.
+    const double steps = voxels > 0.0 ? walk.length() / voxels : 1.0;  // Per voxel of length.
     const double reach = max_range_ / lattice_.size();
     const int sure = std::min(walk.length(), static_cast<int>((reach - kSlack) * steps));
     const int last = std::min(walk.length(), static_cast<int>((reach + kSlack) * steps) + 1);
@@ -146,13 +146,13 @@ class Observation {
   ScanGrid& grid_;
 };
 
-/// Step 1, and the end of step 2: parts what is occupied within range from what is beyond.
+/// Step 1, and the end of step 2: separates occupied voxels within range from those beyond.
 /// @return where rays end within range, each voxel once; those beyond are in `voxels.beyond`
 std::vector<VoxelIndex> find_occupied(const Scan& scan, const Parameters& parameters,
                                       const Lattice& lattice, const Observation& observation,
                                       ScanVoxels& voxels) {
   std::vector<VoxelIndex> ends;
-  VoxelSet beyond;  // Blocks of the grid would take memory for each point far away.
+  VoxelSet beyond;  // Blocks of the grid would take memory for each distant point.
   for (const Eigen::Vector3f& point : scan.points) {
     if (!counts(point, parameters)) continue;
     const VoxelIndex voxel = lattice.voxel_of(scan.T_world_sensor * point.cast<double>());
@@ -179,7 +179,7 @@ bool is_near_block(const ScanGrid& grid, const VoxelIndex& block) {
 
 void find_voxels(const Scan& scan, const Parameters& parameters, const RunContext& context,
                  ScanVoxels& voxels) {
-  constexpr std::size_t kRaysInTurn = 512;  // Between two questions whether to stop.
+  constexpr std::size_t kRaysInTurn = 512;  // Between two checks for a cancel.
   voxels.grid.clear();
   voxels.beyond.clear();
   const Lattice lattice(parameters);

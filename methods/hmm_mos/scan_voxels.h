@@ -12,7 +12,7 @@
 
 namespace raymoval::hmm_mos_method {
 
-/// Where voxels are.
+/// The lattice of the voxels.
 class Lattice {
  public:
   explicit Lattice(const Parameters& parameters)
@@ -31,7 +31,7 @@ class Lattice {
   [[nodiscard]] VoxelIndex sensor_voxel(const Eigen::Vector3d& world) const {
     return voxel_index(world, inverse_);
   }
-  /// From where the distance to a voxel counts, metres.
+  /// The position of a voxel for distances, metres.
   [[nodiscard]] Eigen::Vector3d position(const VoxelIndex& voxel) const {
     return (voxel.cast<double>().array() + (corner_ ? 0.0 : 0.5)).matrix() * size_;
   }
@@ -42,8 +42,8 @@ class Lattice {
   bool corner_;
 };
 
-/// In a scan's grid, `hit` is what is occupied, and `free` all that is observed, ends of rays too.
-/// Both are within range.
+/// In a scan's grid, `hit` is the occupied voxels, and `free` all observed voxels, including ends
+/// of rays. Both are within range.
 using namespace scan_grid;
 
 /// The number of a column in its block, from its indices in it.
@@ -62,12 +62,12 @@ inline ScanGrid empty_grid() {
   return ScanGrid("Set a smaller hmm_mos.max_range, or a larger hmm_mos.voxel_size.");
 }
 
-/// Looks columns up in a grid that stays as it is.
+/// Looks up columns in a constant grid.
 class ColumnLookup {
  public:
   explicit ColumnLookup(const ScanGrid& grid) : blocks_(grid) {}
 
-  /// A column of a block; an empty one where the scan has nothing.
+  /// A column of a block; empty if the scan has none.
   const Column& column(const VoxelIndex& block, std::size_t column) {
     static constexpr Column kEmpty{};
     const ScanBlock* found = blocks_.find(block);
@@ -81,25 +81,26 @@ class ColumnLookup {
   BlockFinder<ScanGrid> blocks_;
 };
 
-/// Whether a point is far enough from its sensor to count. One that is not finite is not.
+/// Whether a point is far enough from its sensor to be used; false if it is not finite.
 inline bool counts(const Eigen::Vector3f& point, const Parameters& parameters) {
   return point.cast<double>().norm() > parameters.min_range;
 }
 
 /// The voxels of one scan. `clear` keeps the memory for the next one.
 struct ScanVoxels {
-  ScanGrid grid = empty_grid();    ///< What is within range.
-  std::vector<VoxelIndex> beyond;  ///< What is occupied beyond it, in the order of the points.
+  ScanGrid grid = empty_grid();  ///< Voxels within range.
+  std::vector<VoxelIndex>
+      beyond;  ///< Occupied voxels beyond the range, in the order of the points.
 };
 
-/// Steps 1 and 2: what of a scan is occupied, and what it observes on its rays.
+/// Steps 1 and 2: the occupied voxels of a scan, and the voxels that it observes on its rays.
 /// @param voxels are overwritten
 /// @throws DataError for points beyond the common lattice; Cancelled
 void find_voxels(const Scan& scan, const Parameters& parameters, const RunContext& context,
                  ScanVoxels& voxels);
 
-/// What two scans occupy beyond their ranges, as far as it lies in the blocks of the first scan's
-/// grid or in those around them: by step 3 it may be what is nearest to a voxel within range.
+/// The occupied voxels of two scans beyond their ranges, in and around the blocks of the first
+/// scan's grid: in step 3 they may be the nearest ones to a voxel within range.
 /// @param near is overwritten
 void find_beyond(const ScanVoxels& now, const ScanVoxels& before, ScanGrid& near);
 

@@ -21,13 +21,13 @@ struct HeightWindow {
   bool is_empty = true;
   bool is_full = true;
 
-  /// The place of the tile's cell (x, y), which may be up to `margin` outside.
+  /// The index of the tile's cell (x, y), which may be up to `margin` outside.
   [[nodiscard]] std::size_t at(int x, int y) const {
     return static_cast<std::size_t>((y + margin) * side + margin + x);
   }
 };
 
-/// Copies what a window has of a tile.
+/// Copies the part of a tile that is in the window.
 void copy_tile(const double* heights, const VoxelIndex& from, HeightWindow& window) {
   // The tile's first cell, in cells of the window.
   const int left = from.x() * kTileSide + window.margin, low = from.y() * kTileSide + window.margin;
@@ -109,7 +109,7 @@ std::vector<Tap> taps_within(double radius) {
   return taps;
 }
 
-/// Whether the rows of a window hold anything.
+/// For each row of a window, whether it has heights.
 std::vector<std::uint8_t> rows_with_heights(const HeightWindow& window) {
   std::vector<std::uint8_t> rows(static_cast<std::size_t>(window.side), 0);
   for (std::size_t y = 0; y < rows.size(); ++y) {
@@ -120,7 +120,7 @@ std::vector<std::uint8_t> rows_with_heights(const HeightWindow& window) {
 }
 
 /// Calls `add(tap, place of the row's first tap in the window)` for the taps of a tile's row that
-/// may hold anything.
+/// may have heights.
 template <class Add>
 void for_taps_of_row(const std::vector<Tap>& taps, const HeightWindow& window,
                      const std::vector<std::uint8_t>& rows, int y, Add&& add) {
@@ -152,13 +152,13 @@ void find_smooth_heights(const HeightWindow& window, const std::vector<Tap>& tap
   }
 }
 
-/// However far a cell is from its smooth height, it counts at least exp(-kMostAway), about 1e-26:
-/// less, times the kernel, would be 0 in single precision, and where all around are that far a cell
-/// would stay without a height.
+/// The smallest weight of a cell far from its smooth height is exp(-kMostAway), about 1e-26. A
+/// smaller weight times the kernel would be 0 in single precision, and a cell with only such
+/// neighbours would have no height.
 constexpr double kMostAway = 60.0;
 
-/// What the cells of a window count by how near they are to their smooth heights: these weights go
-/// into `is_filled`, and the weighted heights into `height`.
+/// Weighs the cells of a window by their deviation from their smooth heights: the weights are
+/// stored in `is_filled`, the weighted heights in `height`.
 void weigh_by_deviation(const HeightWindow& smooth, double deviation, HeightWindow& window) {
   const double scale = 0.5 / (deviation * deviation);
   for (std::size_t i = 0; i < window.height.size(); ++i) {
@@ -172,7 +172,7 @@ void weigh_by_deviation(const HeightWindow& smooth, double deviation, HeightWind
   }
 }
 
-/// Second round: the heights of a tile's cells that have none and a smooth one.
+/// Second round: the heights of a tile's cells with a smooth height only.
 void fill_tile(const HeightWindow& window, const std::vector<Tap>& taps, const double* smooth,
                double* heights) {
   const std::vector<std::uint8_t> all(static_cast<std::size_t>(window.side), 1);
@@ -193,7 +193,7 @@ void fill_tile(const HeightWindow& window, const std::vector<Tap>& taps, const d
   }
 }
 
-/// An empty grid that has these tiles.
+/// A grid with these tiles, without heights.
 HeightGrid grid_of(const std::vector<VoxelIndex>& tiles) {
   HeightGrid grid(kNoHeight);
   HeightGrid::Cursor cursor;
@@ -215,7 +215,7 @@ HeightGrid filled(const HeightGrid& grid, const Fill& fill, int threads) {
   HeightGrid smooth = grid_of(tiles);
   parallel_for(threads, tiles.size(), 1, [&](std::size_t i) {
     const HeightWindow window = window_around(grid, tiles[i], margin);
-    if (window.is_empty || window.is_full) return;  // Nobody asks there.
+    if (window.is_empty || window.is_full) return;  // Not needed there.
     find_smooth_heights(window, taps, fill.least_cells, cells_of(smooth, i));
   });
   HeightGrid result = grid_of(tiles);

@@ -33,16 +33,16 @@ Terrain find_terrain(const Parameters& parameters, const ScanSource& scans,
   return terrain;
 }
 
-/// What the terrain says of a point.
+/// The position of a point relative to the terrain.
 enum class Part : std::uint8_t {
   kGround,
-  kBelow,      ///< It lies below the ground.
-  kCandidate,  ///< It lies above the ground and may be dynamic.
-  kOther,      ///< No terrain is there, and it is not judged.
+  kBelow,      ///< Below the ground.
+  kCandidate,  ///< Above the ground; may be dynamic.
+  kOther,      ///< Without terrain; not judged.
 };
 
 /// Section 3 for a scan, by heights above the terrain: calls `take(i, part)` for its points, in
-/// ranges of them on any thread.
+/// ranges of points on any thread.
 template <class Take>
 void split_points(const Parameters& parameters, const Scan& scan, const Terrain& terrain,
                   int threads, Take&& take) {

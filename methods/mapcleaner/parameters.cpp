@@ -9,17 +9,18 @@
 namespace raymoval::mapcleaner_method {
 namespace {
 
-/// How many times farther apart directions are than published, at least once.
+/// The ratio of a step to the published one, at least 1.
 double times_farther(double step, double published) {
   return step > 0.0 ? std::max(1.0, step / published) : 1.0;
 }
 
-/// A pixel, degrees, of which a window of `half` more to either side spans a step in radians.
+/// The pixel size, degrees, with which a window of `half` pixels to either side spans a step in
+/// radians; at least `pixel`.
 double spanning(double pixel, int half, double step) {
   return std::max(pixel, step / kDegree / (2 * half + 1));
 }
 
-/// A number of points of a bin where only `share` of them is left.
+/// A number of points of a bin, reduced to `share` of it; at least the points of a plane.
 int fewer(int points, double share) {
   constexpr int kPointsOfAPlane = 3;
   const int left = static_cast<int>(std::lround(points * share));

@@ -6,8 +6,8 @@
 
 namespace raymoval::mapcleaner_method {
 
-/// Parameters of MapCleaner; defaults are those of the public program for KITTI. Their units,
-/// ranges and meanings stand in entry.cpp.
+/// Parameters of MapCleaner; defaults are those of the public program for KITTI. Units, ranges and
+/// meanings are in entry.cpp.
 struct Parameters : patchwork::GroundParameters {
   // The terrain.
   double terrain_cell = 0.2;
@@ -20,7 +20,7 @@ struct Parameters : patchwork::GroundParameters {
   double start_radius = 0.0;
   double refill_radius = 2.0;
   double refill_deviation = 0.5;
-  // What is judged, and what goes unjudged.
+  // Judged points, and points removed without a vote.
   double ground_height = 0.172;
   bool remove_below = true;
   double voxel_size = 0.2;
@@ -33,17 +33,16 @@ struct Parameters : patchwork::GroundParameters {
   double tolerance = 0.5;
   double submap_radius = 70.0;
   double submap_travel = 10.0;
-  // As the public program does it.
+  // Behaviour of the public program.
   bool public_field_of_view = true;
   bool public_overwrite = true;
   bool public_steps = true;
 };
 
-/// The parameters for a sensor. They are set for the HDL-64E of KITTI. Unless `public_steps`, the
-/// pixels for a sensor whose directions are far apart are as large as it takes for the window
-/// around a voxel to reach from one direction to the next, so that there is something to compare it
-/// with; and bins ask for as many points fewer as the sensor leaves there, but for no fewer than
-/// span a plane. Steps that are unknown change nothing.
+/// The parameters for a sensor. The published ones are for the HDL-64E of KITTI. Without
+/// `public_steps`, a sensor with larger steps gets larger pixels, so that the window around a voxel
+/// reaches from one direction to the next and holds ranges to compare with. Bins then need fewer
+/// points, in proportion, but at least the points of a plane. Unknown steps change nothing.
 Parameters for_sensor(const Parameters& parameters, const SensorModel& sensor);
 
 }  // namespace raymoval::mapcleaner_method

@@ -13,17 +13,17 @@
 namespace raymoval::mapcleaner_method {
 namespace {
 
-/// Work for a thread at a time. It changes no answer.
+/// Work for a thread at a time; no effect on the result.
 constexpr std::size_t kImagePointsATask = 16 * ImageFrame::Batch::kSize;
 
-/// How many pixels an angle has room for.
+/// The number of pixels in an angle.
 int pixels_in(double angle, double pixel) {
   constexpr double kRounding = 1e-6;
   return std::max(1, static_cast<int>(std::ceil(angle / pixel - kRounding)));
 }
 
-/// Whether a step between beams is a whole window of rows, or more. Then beams have to lie in the
-/// middle of rows: on the border of two, some of their points would fall in the next window.
+/// Whether a step between beams is a whole window of rows, or more. Then beams must be in the
+/// middle of rows: on a border, some of their points would fall in the next window.
 bool is_one_beam_a_window(const Parameters& parameters, const SensorModel& sensor) {
   constexpr double kRounding = 1e-9;
   const double window = (2 * parameters.window_rows + 1) * parameters.row_height * kDegree;
@@ -39,7 +39,7 @@ ImageFrame::ImageFrame(const Parameters& parameters, const SensorModel& sensor)
   elevation_from = -height / 2.0;
   if (!parameters.public_field_of_view) {
     is_circle = sensor.full_circle();
-    // A pixel more on each side: the outermost beams spread.
+    // One more pixel on each side, because the outermost beams spread.
     const double margin = row_height * (is_one_beam_a_window(parameters, sensor) ? 1.5 : 1.0);
     elevation_from = sensor.elevation_min - margin;
     height = sensor.elevation_max + margin - elevation_from;
@@ -109,7 +109,7 @@ void RangeImage::fill(const Scan& scan, int threads) {
 Sight RangeImage::look(int pixel, float range) const {
   const int columns = frame_.columns;
   const int row = pixel / columns, column = pixel % columns;
-  const int wide = std::min(wide_, (columns - 1) / 2);  // No pixel stands in a window twice.
+  const int wide = std::min(wide_, (columns - 1) / 2);  // No pixel is in a window twice.
   Sight sight = Sight::kNothing;
   bool is_hidden = false;
   for (int y = std::max(0, row - high_); y <= std::min(frame_.rows - 1, row + high_); ++y) {

@@ -11,51 +11,51 @@
 
 namespace raymoval::mapcleaner_method {
 
-/// Where directions of the sensor frame fall in an image: rows from below to above, columns
+/// The projection of directions of the sensor frame to an image: rows from below to above, columns
 /// counter-clockwise.
 struct ImageFrame {
   ImageFrame(const Parameters& parameters, const SensorModel& sensor);
 
-  /// Some points of the sensor frame with their pixels, which a compiler finds several at a time.
+  /// Some points of the sensor frame with their pixels, in arrays that a compiler can vectorise.
   struct Batch {
     static constexpr int kSize = 256;
     std::array<float, kSize> x, y, z;             ///< In: metres.
     std::array<float, kSize> row, column, range;  ///< Out: pixels in fractions, metres.
   };
-  /// Fills the rows, columns and ranges of a batch's first points. Angles are good to 1e-6 rad.
+  /// Fills the rows, columns and ranges of a batch's first points. The error of angles is at most
+  /// 1e-6 rad.
   void project(Batch& batch, int count) const;
-  /// The pixel of a point of a batch, -1 where it lies outside the image or in the sensor itself.
+  /// The pixel of a point of a batch, -1 outside the image or at the sensor.
   [[nodiscard]] int pixel_of(const Batch& batch, int i) const {
     const auto at = static_cast<std::size_t>(i);
     const float row = batch.row[at], column = batch.column[at];
     if (!(row >= 0.0F && row < static_cast<float>(rows)) || !(batch.range[at] > 0.0F)) return -1;
     const int before = static_cast<int>(row) * columns;
     if (column < static_cast<float>(columns)) return before + static_cast<int>(column);
-    return is_circle ? before + columns - 1 : -1;  // By rounding it is beyond the last column.
+    return is_circle ? before + columns - 1 : -1;  // Rounded beyond the last column.
   }
 
   int rows = 0, columns = 0;
   bool is_circle = true;                            ///< The last column is beside the first.
   double row_height = 0.0, column_width = 0.0;      ///< Radians.
-  double elevation_from = 0.0, azimuth_from = 0.0;  ///< Where the first row and column begin.
+  double elevation_from = 0.0, azimuth_from = 0.0;  ///< Start of the first row and column, radians.
 };
 
-/// What a scan says of a place.
+/// The observation of a place by a scan.
 enum class Sight : std::int8_t { kNothing, kSeen, kSeenThrough };
 
-/// The range image of a scan, and what it says of places.
+/// The range image of a scan, and its observations of places.
 class RangeImage {
  public:
   RangeImage(const Parameters& parameters, const SensorModel& sensor);
 
   [[nodiscard]] const ImageFrame& frame() const { return frame_; }
-  /// Replaces the image by that of a scan.
+  /// Replaces the image by the image of a scan.
   void fill(const Scan& scan, int threads);
   /// Range of the image in a pixel, metres; 0 where it is empty.
   [[nodiscard]] float at(int row, int column) const { return ranges_[index(row, column)]; }
-  /// Compares a place with the window around its pixel: it is seen where a range is equal but for
-  /// the tolerance; else nothing is told where one is smaller; else it is seen through where one is
-  /// larger.
+  /// Compares a place with the window around its pixel: kSeen if a range is equal within the
+  /// tolerance; else kNothing if a range is smaller; else kSeenThrough if a range is larger.
   /// @param range metres from the sensor
   [[nodiscard]] Sight look(int pixel, float range) const;
 

@@ -11,28 +11,28 @@
 namespace raymoval::mapcleaner_method {
 namespace {
 
-/// The way over the terrain from below the sensors.
+/// The search over the terrain, from below the sensors.
 class Way {
  public:
   Way(const HeightGrid& grid, double cell, double slope)
       : grid_(grid), inverse_cell_(1.0 / cell), steepest_(std::tan(std::min(slope, kTurn / 4.0))) {}
 
-  /// Whether a cell has a height and a slope that can be gone over.
+  /// Whether a cell has a height and is not too steep.
   [[nodiscard]] bool is_passable(const VoxelIndex& cell) {
     return !std::isnan(height(cell)) && !is_too_steep(gradient(cell) - lean_);
   }
   [[nodiscard]] bool is_too_steep(const Eigen::Vector2d& gradient) const {
     return !(gradient.norm() < steepest_);
   }
-  /// Metres up for each metre along x and y, of a cell with a height.
+  /// The gradient of a cell with a height: metres up per metre along x and y.
   [[nodiscard]] Eigen::Vector2d gradient(const VoxelIndex& cell) {
     return {rise(cell, VoxelIndex::UnitX()), rise(cell, VoxelIndex::UnitY())};
   }
-  /// Slopes count as what they differ by from this one from now on.
+  /// From now on, slopes are relative to this gradient.
   void set_lean(const Eigen::Vector2d& gradient) { lean_ = gradient; }
   [[nodiscard]] double height(const VoxelIndex& cell) { return grid_.get(cell, cursor_); }
 
-  /// Goes on from a cell, unless it was reached before.
+  /// Searches from a cell, unless it was reached before.
   void go_from(const VoxelIndex& start, HeightGrid& reached) {
     HeightGrid::Cursor cursor;
     const auto reach = [&](const VoxelIndex& cell) {
@@ -49,7 +49,7 @@ class Way {
   }
 
  private:
-  /// Metres up for each metre along an axis: over both neighbours, or to the one that is there.
+  /// Metres up per metre along an axis: over both neighbours, or to the only one with a height.
   [[nodiscard]] double rise(const VoxelIndex& cell, const VoxelIndex& step) {
     const double here = height(cell), before = height(cell - step), after = height(cell + step);
     if (!std::isnan(before) && !std::isnan(after)) return 0.5 * (after - before) * inverse_cell_;
@@ -79,8 +79,7 @@ std::vector<VoxelIndex> cells_by_distance(double radius) {
   return cells;
 }
 
-/// Goes from the cells around a start (by their distance) that can be gone over: those that are
-/// nearest.
+/// Searches from the nearest passable cells around a start (sorted by distance).
 void go_from_nearest(const VoxelIndex& start, const std::vector<VoxelIndex>& around, Way& way,
                      HeightGrid& reached) {
   int nearest = -1;
@@ -92,8 +91,8 @@ void go_from_nearest(const VoxelIndex& start, const std::vector<VoxelIndex>& aro
   }
 }
 
-/// How the ground around a start leans: the medians of the gradients of cells with a height. Level
-/// if there are none.
+/// The gradient of the ground around a start: the medians of the gradients of cells with a height.
+/// Zero if there are none.
 Eigen::Vector2d lean_around(const VoxelIndex& start, const std::vector<VoxelIndex>& around,
                             Way& way) {
   std::vector<double> along_x, along_y;
@@ -120,7 +119,7 @@ HeightGrid reachable(const HeightGrid& grid, const std::vector<VoxelIndex>& star
       continue;
     }
     if (!(start_radius > 0.0)) continue;
-    // It is not enough that no cell can be gone over: at an edge of the ground some seem level.
+    // Passable cells do not exclude a hill: at an edge of the ground some cells seem level.
     const Eigen::Vector2d lean = lean_around(start, around, way);
     if (way.is_too_steep(lean)) way.set_lean(lean);
     go_from_nearest(start, around, way, reached);

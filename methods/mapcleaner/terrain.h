@@ -25,38 +25,38 @@ inline VoxelIndex terrain_cell(const Eigen::Vector3d& world, double inverse_cell
   return voxel_index({world.x(), world.y(), 0.0}, inverse_cell);
 }
 
-/// How cells without a height get one from those around them.
+/// Parameters of filling cells without a height from the cells around them.
 struct Fill {
-  double radius = 0.0;     ///< In cells; those nearer than this count. 0 fills nothing.
+  double radius = 0.0;     ///< In cells; nearer cells count. 0 fills nothing.
   double deviation = 1.0;  ///< Metres.
   int least_cells = 1;
 };
 
 /// Bayesian generalised kernel inference of terrain in two rounds. The first finds the smooth
 /// height of every cell with enough others around it, by a kernel of their distance. The second
-/// gives it to cells without a height, and weighs those around by how little they deviate from
-/// their own smooth height. Cells with a height keep it.
+/// fills cells without a height, and weighs the cells around by their deviation from their own
+/// smooth height. Cells with a height keep it.
 HeightGrid filled(const HeightGrid& grid, const Fill& fill, int threads);
 
 /// The cells with a height of `grid` that can be reached from `starts` (cells), over eight
-/// neighbours, through cells whose slope is below `slope` radians. Where a start is no such cell,
-/// the way begins at the nearest ones, if they are at most `start_radius` cells away. If the median
-/// slope of the cells within that radius is too steep the start is on a hill, and slopes of its way
-/// count as what they differ by from that.
+/// neighbours, through cells whose slope is below `slope` radians. If a start is no such cell, the
+/// search begins at the nearest such cells within `start_radius` cells. If the median slope of the
+/// cells within that radius is too steep, the start is on a hill, and slopes of its search are
+/// relative to that slope.
 HeightGrid reachable(const HeightGrid& grid, const std::vector<VoxelIndex>& starts, double cell,
                      double slope, double start_radius);
 
-/// Replaces each height by the median of those of the cell and its eight neighbours.
+/// Replaces each height by the median over the cell and its eight neighbours.
 HeightGrid smoothed(const HeightGrid& grid, int threads);
 
-/// The height of the terrain, where the ground goes on without steps from below the sensors.
-/// Memory grows with the area of the ground.
+/// The height of the terrain: ground that continues without steps from below the sensors. Memory
+/// grows with the area of the ground.
 class Terrain {
  public:
   using Cursor = HeightGrid::Cursor;
   explicit Terrain(const Parameters& parameters);
 
-  /// Takes in the ground points of a scan. @param ground one value per point, 1 = ground
+  /// Adds the ground points of a scan. @param ground one value per point, 1 = ground
   void add(const Scan& scan, const Mask& ground);
   /// Finds the terrain, once all scans were added. @throws Cancelled
   void finish(const RunContext& context);
@@ -70,7 +70,7 @@ class Terrain {
   /// Of the heights of a cell's ground points.
   struct Statistics {
     double count = 0.0, mean = 0.0;
-    double squares = 0.0;  ///< Sum of the squares of what they differ from their mean by.
+    double squares = 0.0;  ///< Sum of squared differences from their mean.
   };
   using StatisticsGrid = DenseBlocks<Statistics, 6, 0>;
 
@@ -79,7 +79,7 @@ class Terrain {
   Parameters parameters_;
   double inverse_cell_;
   StatisticsGrid statistics_{Statistics{}};
-  std::vector<VoxelIndex> below_sensors_;  ///< Cells below the sensor, a scan after the other.
+  std::vector<VoxelIndex> below_sensors_;  ///< Cells below the sensor, one per scan.
   HeightGrid heights_{kNoHeight};
 };
 

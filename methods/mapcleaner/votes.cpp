@@ -8,9 +8,9 @@
 namespace raymoval::mapcleaner_method {
 namespace {
 
-/// Side of a tile, metres, which changes time only.
+/// Side of a tile, metres; affects only the time.
 constexpr double kTile = 16.0;
-/// Work for a thread at a time. It changes no answer.
+/// Work for a thread at a time; no effect on the result.
 constexpr std::size_t kVoxelsATask = 16 * ImageFrame::Batch::kSize;
 
 }  // namespace

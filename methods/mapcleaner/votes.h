@@ -10,28 +10,28 @@
 
 namespace raymoval::mapcleaner_method {
 
-/// The votes of scans on voxels: each scan compares the centroids of those around it with its range
-/// image, and votes for what it sees and against what it sees through.
+/// The votes of scans on voxels: each scan compares the centroids of voxels around it with its
+/// range image, and votes for voxels that it sees and against voxels that it sees through.
 class VoxelVotes {
  public:
   /// @param voxels must outlive this object
   VoxelVotes(const Parameters& parameters, const ThinnedPoints& voxels, const SensorModel& sensor);
 
-  /// Takes a scan's votes. Scans are to be given in order, since what is around a sensor is chosen
-  /// anew only now and then. The answer does not depend on `context.threads`.
+  /// Adds a scan's votes. Scans must be given in order, because the voxels around a sensor are only
+  /// updated now and then. The result does not depend on `context.threads`.
   void add(const Scan& scan, const RunContext& context);
   /// Whether more scans see through a voxel than see it.
   [[nodiscard]] bool is_dynamic(std::size_t voxel) const { return balance_[voxel] > 0; }
-  /// How many more scans see through a voxel than see it.
+  /// The number of scans that see through a voxel minus the number that see it.
   [[nodiscard]] int balance(std::size_t voxel) const { return balance_[voxel]; }
 
  private:
   /// Voxels of an upright square column of the world.
   struct Tile {
     Eigen::Vector3d low, high;       ///< The box around their centroids, metres.
-    std::size_t begin = 0, end = 0;  ///< Their places in `by_tile_`.
+    std::size_t begin = 0, end = 0;  ///< Their indices in `by_tile_`.
   };
-  /// The voxels around a place, by their centroids from there, metres.
+  /// The voxels around a place, with their centroids relative to it, metres.
   struct Submap {
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     std::vector<std::uint32_t> voxel;
@@ -40,7 +40,7 @@ class VoxelVotes {
 
   void sort_into_tiles();
   void choose_submap(const Eigen::Vector3d& place);
-  /// Takes the votes on the submap's voxels from `begin` to `end`, a batch at most.
+  /// Votes on the submap's voxels from `begin` to `end`, at most a batch.
   void vote(const Eigen::Isometry3f& T_sensor_submap, std::size_t begin, std::size_t end);
 
   double radius_, travel_;

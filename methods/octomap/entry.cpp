@@ -110,8 +110,8 @@ std::vector<std::string> octomap_notes() {
   };
 }
 
-/// Fitted to five simulated worlds of odd seeds, with five sensors. Most free points are ground,
-/// hence the low end of the curve.
+/// Fitted to five simulated worlds of development seeds, with five sensors. Most free points are
+/// ground, hence the low end of the curve.
 Calibration octomap_confidence() {
   return {
       "How likely a point's leaf is free (ground that is fitted never moves), by the curve of r20.",

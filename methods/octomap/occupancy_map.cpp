@@ -23,8 +23,8 @@ std::uint64_t bit_of(const Key& cell) {
   return std::uint64_t{1} << ((cell[1] & 7) << 3 | (cell[2] & 7));
 }
 
-/// Whether `computeRayKeys` ends within the memory of a `KeyRay`. A beam that is too short to be
-/// squared has no direction in float.
+/// Whether `computeRayKeys` ends within the memory of a `KeyRay`. A beam whose squared length
+/// underflows has no direction in float.
 bool can_be_traced(const octomap::point3d& beam, const Key& first, const Key& last) {
   int walls = 0;
   for (unsigned axis = 0; axis < 3; ++axis) walls += std::abs(last[axis] - first[axis]);
@@ -34,8 +34,7 @@ bool can_be_traced(const octomap::point3d& beam, const Key& first, const Key& la
 
 }  // namespace
 
-/// Marks cells of a scan, on one thread of several. Cells that follow each other are mostly in one
-/// block.
+/// Marks cells of a scan, on one of several threads. Consecutive cells are mostly in one block.
 class OccupancyMap::Marker {
  public:
   explicit Marker(const VoxelMap<Block*>& block_at) : block_at_(block_at) {}
@@ -56,7 +55,7 @@ class OccupancyMap::Marker {
     if (!is_marked.exchange(true, std::memory_order_relaxed)) marked_.push_back(block_);
   }
 
-  /// The blocks of which this is the first change.
+  /// The blocks that it changed first.
   [[nodiscard]] const std::vector<Block*>& marked() const { return marked_; }
 
  private:

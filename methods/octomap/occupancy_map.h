@@ -14,30 +14,30 @@
 
 namespace raymoval::octomap_method {
 
-/// What a point of a scan does to the map.
+/// The effect of a point of a scan on the map.
 enum class PointRole : std::uint8_t {
   kSurface,  ///< Its cell is hit, and its beam is free.
   kGround,   ///< Its beam is free; its cell is not hit.
   kNoise,    ///< Its cell is hit, and it has no beam.
 };
 
-/// liboctomap's tree, restricted to the cells that are asked for: no cell depends on another, and
-/// free space without a point is most of a map. `computeRayKeys` gives the cells of a beam, and
-/// `updateNode` the log-odds of a cell.
+/// liboctomap's tree, restricted to the kept cells. Cells are independent, and most of a map is
+/// free space without points. `computeRayKeys` gives the cells of a beam, and `updateNode` the
+/// log-odds of a cell.
 class OccupancyMap {
  public:
   static constexpr int kReach = 32768;  ///< Leaves from the tree's centre to its edge.
 
   explicit OccupancyMap(const Parameters& parameters);
 
-  /// The cell that holds `point`, in the tree's frame, metres. There is none beyond `kReach`.
+  /// The cell that holds `point`, in the tree's frame, metres. No value beyond `kReach`.
   [[nodiscard]] std::optional<octomap::OcTreeKey> cell_of(const octomap::point3d& point) const;
 
-  /// Adds a cell to those that the map keeps. To be called before `insert`.
+  /// Adds a cell to the kept cells. Must be called before `insert`.
   void keep(const octomap::OcTreeKey& cell);
 
-  /// Takes in a scan as `insertPointCloud` does: a kept cell with a hit is raised once, any other
-  /// kept cell that a beam crosses is lowered once.
+  /// Inserts a scan like `insertPointCloud`: a kept cell with a hit is raised once, any other kept
+  /// cell that a beam crosses is lowered once.
   /// @param points end points in the tree's frame, metres
   /// @param roles one per point
   /// @param origin of the beams, in the same frame
@@ -65,7 +65,7 @@ class OccupancyMap {
   octomap::OcTree tree_;
   std::deque<Block> blocks_;
   VoxelMap<Block*> block_at_;
-  std::vector<Block*> marked_;  ///< Blocks that the scan at hand changes.
+  std::vector<Block*> marked_;  ///< Blocks that the current scan changes.
 };
 
 }  // namespace raymoval::octomap_method

@@ -17,7 +17,7 @@ namespace {
 
 using Points = std::vector<octomap::point3d>;
 
-/// One run: the cells that matter, a map of all scans, then an answer for each point from the map.
+/// One run: the cells with points, a map of all scans, then a verdict on each point from the map.
 class OctomapRun {
  public:
   OctomapRun(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
@@ -107,7 +107,7 @@ class OctomapRun {
     return roles;
   }
 
-  /// The plane is looked for among the points that are no noise.
+  /// The plane is fitted to the points that are not noise.
   void mark_ground(std::size_t scan, const Points& points, std::vector<PointRole>& roles) {
     const StageScope timed(context_.times, "ground plane");
     Points candidates;
@@ -151,7 +151,7 @@ class OctomapRun {
   const RunContext& context_;
   OccupancyMap map_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< The tree's centre in the world, metres.
-  MaskStore ground_;  ///< Points on the ground, which stay whatever their leaf says.
+  MaskStore ground_;  ///< Points on the ground, which are kept for any state of their leaf.
   std::atomic<std::uint64_t> outside_{0};
 };
 
@@ -170,7 +170,7 @@ std::unique_ptr<Remover> make_octomap(const Parameters& parameters) {
     throw ConfigurationError(
         "octomap.maximum_range = 0 leaves no beam; give a range in metres, or -1 for unlimited.");
   }
-  // A build without PCL refuses before anything runs.
+  // Without PCL, this throws before anything runs.
   if (parameters.ground && !kHasPcl) (void)find_ground({}, parameters);
   return remover_from(parameters, run);
 }

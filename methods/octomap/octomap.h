@@ -34,10 +34,10 @@ struct Parameters {
 };
 
 /// Occupancy mapping after Hornung et al., "OctoMap: an efficient probabilistic 3D mapping
-/// framework based on octrees" (Autonomous Robots 34, 2013), on liboctomap's own tree, as a way to
-/// remove moving objects: a point goes if its leaf is free once all scans are in.
+/// framework based on octrees" (Autonomous Robots 34, 2013), on liboctomap's own tree, used to
+/// remove moving objects: a point is removed if its leaf is free after all scans are inserted.
 ///
-/// Decisions and deviations are the `notes` of the entry.
+/// Decisions and deviations: `notes` of the entry.
 /// @throws ConfigurationError if two parameters contradict each other
 std::unique_ptr<Remover> make_octomap(const Parameters& parameters);
 

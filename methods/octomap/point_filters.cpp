@@ -22,10 +22,10 @@ namespace raymoval::octomap_method {
 namespace {
 
 constexpr std::size_t kLeastPoints = 50;  ///< Scans with fewer points have no ground (KTH port).
-constexpr int kMostTries = 50;            ///< PCL's default, which the KTH port leaves.
+constexpr int kMostTries = 50;            ///< PCL's default, as in the KTH port.
 
-/// PCL's plane nearly perpendicular to an axis. PCL writes a line to standard error for each sample
-/// on one line; this passes over such a sample in silence.
+/// PCL's plane nearly perpendicular to an axis. For each sample of collinear points PCL writes a
+/// line to standard error; this class skips such samples silently.
 class LevelPlane : public pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ> {
  public:
   using Base = pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ>;
@@ -51,7 +51,7 @@ Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& 
   const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
   cloud->reserve(points.size());
   for (const octomap::point3d& p : points) cloud->push_back({p.x(), p.y(), p.z()});
-  // What pcl::SACSegmentation does, without the lines that it prints where it finds nothing.
+  // Like pcl::SACSegmentation, without its output if it finds nothing.
   const std::shared_ptr<LevelPlane> plane(new LevelPlane(cloud, false));
   plane->setAxis(Eigen::Vector3f::UnitZ());
   plane->setEpsAngle(parameters.ground_angle);

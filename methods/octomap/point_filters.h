@@ -17,14 +17,14 @@ inline constexpr bool kHasPcl = RAYMOVAL_PCL;
 /// consensus (Fischler and Bolles, 1981; PCL with its fixed seed) whose normal is within
 /// `ground_angle` of the z axis, refined by least squares.
 /// @param points world axes, metres
-/// @return 1 for each point within `ground_distance` of the plane; all 0 for fewer than
-/// 50 points or where there is no such plane
+/// @return 1 for each point within `ground_distance` of the plane; all 0 for fewer than 50 points
+/// or without such a plane
 /// @throws ConfigurationError without PCL
 Mask find_ground(const std::vector<octomap::point3d>& points, const Parameters& parameters);
 
 /// Statistical outliers (Rusu et al., 2008; as PCL's filter): points whose mean distance to their
-/// `noise_neighbours` nearest others is above the scan's mean by more than `noise_sigma` standard
-/// deviations. Scans with no more points than that have none.
+/// `noise_neighbours` nearest neighbours is above the scan's mean by more than `noise_sigma`
+/// standard deviations. Scans with no more points than that have none.
 Mask find_noise(const std::vector<octomap::point3d>& points, const Parameters& parameters,
                 int threads);
 

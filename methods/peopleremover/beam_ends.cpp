@@ -48,13 +48,13 @@ void DirectionIndex::build(const std::vector<Eigen::Vector3d>& points) {
     direction[at] = points[k] / range_of_[k];
     point[at] = points[k];
   }
-  // Filling moved every start to the next cell's.
+  // Filling has moved every start to the start of the next cell.
   for (std::size_t c = cell_start_.size() - 1; c > 0; --c) cell_start_[c] = cell_start_[c - 1];
   cell_start_[0] = 0;
 }
 
 DirectionIndex::Window DirectionIndex::window_around(const Eigen::Vector3d& u, double half_sine) {
-  // Far above rounding, far below a cell.
+  // Much larger than rounding errors, much smaller than a cell.
   constexpr double kMargin = 2e-9;
   const double cosine = 1.0 - 2.0 * half_sine * half_sine - 0.5 * kMargin;
   const double sine = 2.0 * half_sine * std::sqrt(std::max(0.0, 1.0 - half_sine * half_sine));
@@ -109,7 +109,7 @@ void BeamEnds::sort_by_range() {
   for (std::size_t k = 0; k < count; ++k) {
     by_range_[start_[bucket_[k] - lowest]++] = static_cast<std::uint32_t>(k);
   }
-  std::uint32_t begin = 0;  // Filling moved each start to its bucket's end.
+  std::uint32_t begin = 0;  // Filling has moved each start to the end of its bucket.
   for (std::size_t b = 0; b + 1 < start_.size(); ++b) {
     std::sort(by_range_.begin() + begin, by_range_.begin() + start_[b],
               [this](std::uint32_t i, std::uint32_t j) {
@@ -120,8 +120,8 @@ void BeamEnds::sort_by_range() {
   }
 }
 
-/// Ends the beams around `owner` where they meet the plane parallel to the surface there, one voxel
-/// diagonal in front of it.
+/// Ends the beams around `owner` at the plane parallel to the surface there, one voxel diagonal in
+/// front of it.
 void BeamEnds::cast_shadow_of(std::size_t owner) {
   const double diagonal = parameters_.voxel_diagonal();
   const double range = index_.range[owner];
@@ -143,7 +143,7 @@ void BeamEnds::cast_shadow_of(std::size_t owner) {
     const double cosine = index_.direction[k].dot(normal);
     if (cosine == 0.0) continue;
     const double length = plane / cosine;
-    if (length > index_.range[k]) continue;  // In front of the plane: a case of its own later.
+    if (length > index_.range[k]) continue;  // In front of the plane: not shortened here.
     length_[k] = std::min(length_[k], std::max(0.0, length));
   }
 }
@@ -167,7 +167,7 @@ void BeamEnds::find_neighbours(std::size_t owner, double half_sine) {
 Eigen::Vector3d BeamEnds::normal_at(std::size_t owner) const {
   const Eigen::Vector3d backwards = -index_.direction[owner];
   if (neighbours_.size() < 3) return backwards;
-  // Taken from the owner, which lies among them: small numbers, one pass.
+  // Relative to the owner, which is among them: small numbers, one pass.
   const Eigen::Vector3d origin = index_.point[owner];
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
@@ -196,7 +196,7 @@ Eigen::Vector3d surface_normal(const Eigen::Matrix3d& covariance) {
   const Eigen::Matrix3d scaled = covariance / scale;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(scaled);
-  // The closed form loses half of its digits where two eigenvalues nearly agree.
+  // The closed form loses half of its digits if two eigenvalues are nearly equal.
   if (solver.eigenvalues()[1] < 1e-5 * solver.eigenvalues()[2] ||
       solver.eigenvalues()[1] - solver.eigenvalues()[0] < 1e-5 * solver.eigenvalues()[2]) {
     solver.compute(scaled);

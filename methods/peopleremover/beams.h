@@ -25,8 +25,8 @@ class DirectionIndex {
 
   [[nodiscard]] std::size_t size() const { return point.size(); }
 
-  /// Calls `visit(begin, end)` with ranges of positions that hold all points whose direction is
-  /// nearer than an angle to that at `position`, and some others.
+  /// Calls `visit(begin, end)` with ranges of positions. They contain all points whose direction is
+  /// within an angle of that at `position`, and some others.
   /// @param half_sine sine of half that angle, in (0, 1)
   template <class Visit>
   void for_each_range_near(std::size_t position, double half_sine, Visit&& visit) const {
@@ -65,14 +65,14 @@ class DirectionIndex {
 
 inline constexpr double kWholeBeam = std::numeric_limits<double>::infinity();
 
-/// Finds how far each beam of a scan may be followed (step 2.3, "point shadows"). Each thread
-/// needs one of its own; it keeps its memory from scan to scan.
+/// Finds the length to which each beam of a scan is followed (step 2.3, "point shadows"). Each
+/// thread needs its own object; it keeps its memory from scan to scan.
 class BeamEnds {
  public:
   explicit BeamEnds(const Parameters& parameters) : parameters_(parameters) {}
 
   /// @param points of one scan, sensor frame, metres, none at the origin
-  /// @return metres from the sensor along each beam; `kWholeBeam` for the whole of it
+  /// @return metres from the sensor along each beam; `kWholeBeam` for the whole beam
   const std::vector<double>& find(const std::vector<Eigen::Vector3d>& points);
 
  private:
@@ -95,8 +95,8 @@ class BeamEnds {
 /// on a line (second eigenvalue below 1e-9 of the largest).
 Eigen::Vector3d surface_normal(const Eigen::Matrix3d& covariance);
 
-/// Freed voxels, one word per brick of a map. Bits are only ever set while beams are followed, from
-/// any thread, so that the order of the scans cannot show.
+/// Freed voxels, one word per brick of a map. While beams are followed, bits are only set, from any
+/// thread, so that the order of the scans has no effect.
 class FreedVoxels {
  public:
   explicit FreedVoxels(std::size_t bricks) : words_(bricks, 0) {}
@@ -106,15 +106,15 @@ class FreedVoxels {
   void set(BrickId brick, BrickWord voxels) {
     std::atomic_ref(words_[brick]).fetch_or(voxels, std::memory_order_relaxed);
   }
-  /// Only once no thread sets any more.
+  /// Only after the last thread has set bits.
   [[nodiscard]] std::vector<BrickWord>& words() { return words_; }
 
  private:
   std::vector<BrickWord> words_;
 };
 
-/// Voxels that belong to one scan (or a few), as words beside those of a map. Clearing takes time
-/// by what was set only.
+/// Voxels of one scan (or a few), as words parallel to those of a map. The time of clearing depends
+/// only on the set voxels.
 class VoxelMarks {
  public:
   explicit VoxelMarks(std::size_t bricks) : words_(bricks, 0) {}
@@ -139,8 +139,8 @@ class VoxelMarks {
 ///
 /// The voxels visited are those of Amanatides and Woo (1987): the walls between the voxels of both
 /// ends, crossed in order of (crossing time, axis), one at a time, the last voxel included. A
-/// crossing time is (wall - start) / direction, never a running sum, so that bricks of voxels can
-/// be stepped over and the same voxels are found as by single steps.
+/// crossing time is (wall - start) / direction, never a running sum, so that skipping bricks gives
+/// the same voxels as single steps.
 class BeamWalker {
  public:
   BeamWalker(const BrickMap& map, FreedVoxels& freed, const VoxelMarks& own);

@@ -36,13 +36,13 @@ struct Member {
   int bit;
 };
 
-/// Takes a component out of `left`, the freed voxels that are in none yet.
+/// Removes a component from `left`, the freed voxels without a component.
 class ComponentTaker {
  public:
   ComponentTaker(const BrickMap& map, std::vector<BrickWord>& left)
       : map_(map), finder_(map), left_(left) {}
 
-  /// Takes all voxels that are connected with the lowest one left in `brick`.
+  /// Removes all voxels that are connected with the lowest remaining voxel of `brick`.
   const std::vector<Member>& take(BrickId brick) {
     members_.clear();
     move(brick, left_[brick] & -left_[brick]);

@@ -19,7 +19,7 @@ inline constexpr int kBlockBits = 3;
 
 using BrickWord = std::uint64_t;
 using BrickIndex = Eigen::Vector3i;
-/// Number of a brick in a BrickMap; kNoBrick where the map has none.
+/// Number of a brick in a BrickMap; kNoBrick if the map has no such brick.
 using BrickId = std::uint32_t;
 inline constexpr BrickId kNoBrick = 0xFFFFFFFFU;
 
@@ -46,14 +46,14 @@ struct SlabMasks {
 };
 const SlabMasks& slab_masks();
 
-/// The occupied voxels of all scans, once all are known: bricks numbered 0 .. size() - 1, found
-/// through blocks. Memory depends on the occupied volume only, about 40 bytes a brick.
+/// The occupied voxels of all scans: bricks numbered 0 .. size() - 1, found through blocks. Memory
+/// depends on the occupied volume only, about 40 bytes per brick.
 class BrickMap {
  public:
-  /// A block lists which of its bricks exist; theirs are consecutive numbers.
+  /// A block marks its existing bricks, which have consecutive numbers.
   struct Block {
     std::array<std::uint64_t, 8> present{};  ///< Word = z, bit = x + 8 y.
-    std::array<std::uint16_t, 8> before{};   ///< Bricks in the words before.
+    std::array<std::uint16_t, 8> before{};   ///< Number of bricks in earlier words.
     BrickId first = 0;
 
     [[nodiscard]] BrickId find(int brick_x, int brick_y, int brick_z) const {
@@ -82,8 +82,7 @@ class BrickMap {
   VoxelMap<std::uint32_t> block_of_;
 };
 
-/// Finds bricks quickly where one look-up lies near the last ones. Each thread needs one of its
-/// own.
+/// Finds bricks quickly if look-ups are near each other. Each thread needs its own object.
 class BrickFinder {
  public:
   explicit BrickFinder(const BrickMap& map) : map_(&map), slots_(kSlots) {}

@@ -66,7 +66,7 @@ MethodEntry peopleremover_entry() {
 }
 )";
   entry.notes = {
-      // The page of the method has all.
+      // The page of the method has all notes.
       "maxrange_method = none follows whole beams, as 3DTK did before May 2020; its present "
       "version follows none there and removes nothing.",
       "maxrange_method = normals is the default here and the choice of 3DTK's own example; 3DTK's "

@@ -14,7 +14,7 @@
 namespace raymoval::peopleremover_method {
 namespace {
 
-/// The points of a scan that take part (farther than the minimum range), in scan order.
+/// The used points of a scan (farther than the minimum range), in scan order.
 struct LatticeScan {
   Eigen::Vector3d sensor;              ///< Position of the sensor, voxel units.
   std::vector<std::uint32_t> index;    ///< Number of each point in its scan.
@@ -24,8 +24,8 @@ struct LatticeScan {
   [[nodiscard]] std::size_t size() const { return index.size(); }
 };
 
-/// Step 2.1 of the reference: drops near points, and puts the others on the lattice. Reuses the
-/// memory of `result`. @throws DataError if a point lies beyond the lattice.
+/// Step 2.1: drops near points, and places the others on the lattice. Reuses the memory of
+/// `result`. @throws DataError if a point lies beyond the lattice.
 void put_on_lattice(const Scan& scan, const Parameters& parameters, LatticeScan& result) {
   const double inverse = 1.0 / parameters.voxel_size;
   const double minimum = parameters.effective_minimum_range();
@@ -62,7 +62,7 @@ OwnVoxels own_voxels(const LatticeScan& scan, BrickFinder& finder) {
   return own;
 }
 
-/// The voxels of scan i and of those within `diff` of it, for one i after the other.
+/// The voxels of scan i and of the scans within `diff` of it, for successive i.
 class ScanWindow {
  public:
   ScanWindow(const ScanSource& scans, const Parameters& parameters)
@@ -99,11 +99,11 @@ class ScanWindow {
   LatticeScan read_;
 };
 
-/// Steps 2.9 and 2.10: the verdicts of a scan from the final freed voxels. Each thread needs one of
-/// its own.
+/// Steps 2.9 and 2.10: the verdicts of a scan from the final freed voxels. Each thread needs its
+/// own object.
 ///
 /// half(x) need not be stored: a point of scan i in voxel x is in it iff scan i has a point in a
-/// freed voxel near x, which the scan's own points tell.
+/// freed voxel near x, which follows from the points of scan i.
 class ScanVerdicts {
  public:
   /// @param freed one word per brick of `map`
@@ -136,11 +136,11 @@ Mask ScanVerdicts::of(const Scan& scan) {
     const BrickWord bit = voxel_bit(voxel);
     if ((freed_[brick] & bit & ~own_freed_.at(brick)) == 0) continue;
     own_freed_.set(brick, bit);
-    // Freed voxels of the halo are dynamic by themselves: including them changes nothing.
+    // Freed voxels of the halo are dynamic anyhow: including them has no effect.
     for_each_brick_near(finder_, voxel, radius,
                         [this](BrickId near, BrickWord voxels) { halo_.set(near, voxels); });
   }
-  Mask dynamic(scan.size(), 0);  // Points left out stay static.
+  Mask dynamic(scan.size(), 0);  // Unused points stay static.
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const BrickId brick = finder_.find(brick_of(points_.voxels[k]));
     const BrickWord bit = voxel_bit(points_.voxels[k]);
@@ -149,7 +149,7 @@ Mask ScanVerdicts::of(const Scan& scan) {
   return dynamic;
 }
 
-/// What a thread needs to follow the beams of a scan.
+/// The memory of a thread that follows the beams of a scan.
 struct BeamWorkspace {
   BeamWorkspace(const Parameters& parameters, const BrickMap& map, FreedVoxels& freed)
       : ends(parameters), finder(map), own(map.size()), walker(map, freed, own) {}
@@ -160,7 +160,7 @@ struct BeamWorkspace {
   BeamWalker walker;
 };
 
-/// One run over a sequence. Scans are read again in each step and never held.
+/// One run over a sequence. Scans are read again in each step and not held in memory.
 class Pass {
  public:
   Pass(const Parameters& parameters, const ScanSource& scans, const RunContext& context)
@@ -190,7 +190,7 @@ class Pass {
     FreedVoxels freed(map.size());
     Workspaces<BeamWorkspace> workspaces(
         [&] { return std::make_unique<BeamWorkspace>(parameters_, map, freed); });
-    // Scans that follow each other share most of their windows.
+    // Consecutive scans share most of their windows.
     const auto diff = static_cast<std::size_t>(parameters_.diff);
     const std::size_t grain = diff == 0 ? 1 : std::max<std::size_t>(8, 4 * diff);
     for_chunks("peopleremover, beams", grain, workspaces,
@@ -226,8 +226,8 @@ class Pass {
   }
 
  private:
-  /// Visits all scans in chunks of `grain`. `visit_chunk(workspace, each_scan)` has the workspace
-  /// for itself, see `for_scan_chunks`.
+  /// Visits all scans in chunks of `grain`. `visit_chunk(workspace, each_scan)` has exclusive use
+  /// of the workspace, see `for_scan_chunks`.
   template <class Workspace, class VisitChunk>
   void for_chunks(const char* what, std::size_t grain, Workspaces<Workspace>& workspaces,
                   VisitChunk&& visit_chunk) {
@@ -246,7 +246,7 @@ class Pass {
     const StageScope timed(context_.times, "traversal");
     const LatticeScan& points = workspace.points;
     const double inverse = 1.0 / parameters_.voxel_size;
-    constexpr std::size_t kBeamsInTurn = 512;  // Between two questions whether to stop.
+    constexpr std::size_t kBeamsInTurn = 512;  // Between two checks for a cancel.
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (k % kBeamsInTurn == 0) context_.check_cancelled();
       if (lengths[k] == kWholeBeam) {

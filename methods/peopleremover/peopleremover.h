@@ -9,10 +9,10 @@
 namespace raymoval {
 namespace peopleremover_method {
 
-/// Where a beam ends.
+/// The end of a beam.
 enum class MaxrangeMethod {
-  kNone,     ///< At the point it measured.
-  kNormals,  ///< Where it meets the plane that lies one voxel diagonal in front of the surface.
+  kNone,     ///< At its point.
+  kNormals,  ///< At the plane one voxel diagonal in front of the surface.
 };
 
 /// Parameters of the Peopleremover, named as the options of its public program (3DTK).
@@ -27,7 +27,7 @@ struct Parameters {
 
   /// sqrt(3) voxel edges, metres (v_d).
   [[nodiscard]] double voxel_diagonal() const { return std::sqrt(3.0) * voxel_size; }
-  /// Points this near, or nearer, are left out; metres.
+  /// Points up to this range are left out; metres.
   [[nodiscard]] double effective_minimum_range() const {
     return minimum_range > 0.0 ? minimum_range : voxel_diagonal();
   }
@@ -36,11 +36,11 @@ struct Parameters {
 /// The Peopleremover: change detection by traversing a voxel occupancy grid (Schauer and Nuechter,
 /// RA-L 3(3), 2018, and ISPRS J. 2018), written from a description of the public program (3DTK).
 ///
-/// A voxel is freed if a beam of some scan passes through it, it holds points, and none of them is
-/// of that scan (or of one within `diff` scans). Points in freed voxels are dynamic, and so are
-/// points of a scan that has others in a freed voxel nearby.
+/// A voxel with points is freed if a beam of some scan passes through it, and none of its points is
+/// of that scan (or of a scan within `diff` scans). Points in freed voxels are dynamic, and so are
+/// points of a scan that also has points in a freed voxel nearby.
 ///
-/// Decisions, and what differs from the public program, are the `notes` of the entry.
+/// Decisions and deviations from the public program: `notes` of the entry.
 std::unique_ptr<Remover> make_peopleremover(const Parameters& parameters);
 
 }  // namespace peopleremover_method

@@ -13,7 +13,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 using Triple = std::array<int, 3>;
 using Times = std::array<double, 3>;
 
-/// The axis whose wall is crossed first; the lower axis where two are crossed at once.
+/// The axis whose wall is crossed first; the lower axis if two are crossed at once.
 std::size_t first_axis(const Times& times) {
   const std::size_t axis = times[1] < times[0] ? 1 : 0;
   return times[2] < times[axis] ? 2 : axis;
@@ -27,11 +27,11 @@ struct BeamWalker::Beam {
   Triple first, last;  ///< Voxels of both ends.
   Triple step;         ///< 1 or -1.
 
-  /// When the wall at `wall` (voxel units) of `axis` is crossed.
+  /// The time at which the wall at `wall` (voxel units) of `axis` is crossed.
   [[nodiscard]] double time_of(std::size_t axis, int wall) const {
     return (wall - start[axis]) * inverse[axis];
   }
-  /// When the beam leaves voxel `at` along `axis`. It never leaves the last one.
+  /// The time at which the beam leaves voxel `at` along `axis`. It never leaves the last voxel.
   [[nodiscard]] double leaves_voxel(std::size_t axis, int at) const {
     if (at == last[axis]) return kNever;
     return time_of(axis, step[axis] > 0 ? at + 1 : at);
@@ -42,21 +42,21 @@ struct BeamWalker::Beam {
   }
 };
 
-/// How a beam comes into a brick: across the wall of `axis` at `time`. It leaves at `until`. In the
-/// first brick `time` is below every other time.
+/// The entry of a beam into a brick: across the wall of `axis` at `time`. The beam leaves at
+/// `until`. In the first brick `time` is below every other time.
 struct BeamWalker::Entry {
   Triple brick;
   double time;
   std::size_t axis;
   double until;
 
-  /// The voxels that the beam can reach between both times, and at most a few others.
+  /// The voxels that the beam can reach between both times, and possibly a few others.
   [[nodiscard]] BrickWord reach(const Beam& beam) const;
-  /// Whether the wall crossed at `crossing` lies behind the beam as it comes in.
+  /// Whether the wall crossed at `crossing` is behind the beam at its entry.
   [[nodiscard]] bool is_behind(double crossing, std::size_t of_axis) const {
     return crossing < time || (crossing == time && of_axis <= axis);
   }
-  /// The voxel in which the beam comes in.
+  /// The voxel of the entry.
   [[nodiscard]] Triple voxel(const Beam& beam) const;
 };
 
@@ -81,7 +81,7 @@ Triple BeamWalker::Entry::voxel(const Beam& beam) const {
     const auto [near, far] = std::minmax(beam.first[a], beam.last[a]);
     const int low = std::max(brick[a] * kBrickSide, near);
     const int high = std::min(brick[a] * kBrickSide + kBrickSide - 1, far);
-    // A guess, then the walls decide: rounding must not part this from a walk by single steps.
+    // A guess, corrected by the walls: the result must equal that of single steps despite rounding.
     const double guess = std::floor(beam.start[a] + beam.direction[a] * time);
     int c = static_cast<int>(std::clamp(guess, double(low), double(high)));
     if (beam.step[a] > 0) {
@@ -133,7 +133,7 @@ void BeamWalker::walk(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   }
 }
 
-/// An own point in the sensor's voxel stops no beam.
+/// A point of the window in the sensor's voxel does not stop a beam.
 void BeamWalker::visit_first(const VoxelIndex& voxel) {
   const BrickId brick = finder_.find(brick_of(voxel));
   if (brick == kNoBrick) return;
@@ -145,12 +145,13 @@ void BeamWalker::visit_first(const VoxelIndex& voxel) {
 bool BeamWalker::walk_brick(const Beam& beam, const Entry& entry, BrickId brick) {
   const BrickWord own = own_.at(brick);
   const BrickWord foreign = map_.occupied(brick) & ~own & ~freed_.load(brick);
-  // Without a voxel that could be freed or could stop it, the way through does not matter.
+  // Without a voxel that can be freed or can stop the beam, the walk through the brick has no
+  // effect.
   if ((own | foreign) == 0 || ((own | foreign) & entry.reach(beam)) == 0) return false;
   Triple at = entry.voxel(beam);
   Times leaves;
   for (std::size_t a = 0; a < 3; ++a) leaves[a] = beam.leaves_voxel(a, at[a]);
-  bool skip = entry.time < 0.0, stopped = false;  // The first voxel of all was visited before.
+  bool skip = entry.time < 0.0, stopped = false;  // The first voxel was visited before.
   BrickWord visited = 0;
   for (;;) {
     const BrickWord bit = voxel_bit(at[0], at[1], at[2]);

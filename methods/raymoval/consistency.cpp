@@ -37,7 +37,7 @@ std::vector<SeenThrough> find_seen_through(const ProjectedScan& scan,
     const auto is_behind = [&](double seen_to) {
       return seen_to - reference > margin.at(reference) && seen_to - first > margin.tau0;
     };
-    // The bin's own return first: the neighbourhood's nearest one is no farther.
+    // The bin's own return first: the nearest return of the neighbourhood is not farther.
     const float own = scan.minimum_range[bin];
     if (own == kNoRange || first == kNoRange || !is_behind(own)) return;
     const float nearest =

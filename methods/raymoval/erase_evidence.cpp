@@ -10,9 +10,9 @@
 namespace raymoval::raymoval_method {
 namespace {
 
-/// Rows of the grid from one beam to the next, so that a window of that radius holds a return
-/// wherever the surface goes on. Beams more than half a degree apart are no witnesses for each
-/// other: at 20 m that is 17 cm, about a voxel.
+/// Rows of the grid between neighbouring beams, so that a window of this radius holds a return if
+/// the surface continues. Beams more than half a degree apart do not support each other: at 20 m
+/// that is 17 cm, about a voxel.
 int rows_of_a_beam(const SensorModel& sensor, const AngularGrid& grid,
                    const Parameters& parameters) {
   if (parameters.erase_elevation_window >= 0) return parameters.erase_elevation_window;
@@ -50,7 +50,7 @@ std::vector<VoxelIndex> EvidenceFinder::find(const ScanAgainstMap& scan, const O
   return voxels;
 }
 
-/// A ray may pass through the empty part of a voxel: one in which the scan itself has a point is
+/// A ray may pass through the empty part of a voxel, so a voxel with a point of the same scan is
 /// not seen through.
 void EvidenceFinder::drop_own_voxels(const ScanAgainstMap& scan, const OccupancyMap& map,
                                      std::vector<VoxelIndex>& voxels) {

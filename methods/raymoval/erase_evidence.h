@@ -8,13 +8,13 @@
 
 namespace raymoval::raymoval_method {
 
-/// Finds the voxels that a scan sees through, which are to be erased (the erase cases of Fig. 1).
+/// Finds the voxels to erase, through which a scan sees (the erase cases of Fig. 1).
 class EvidenceFinder {
  public:
   /// @param parameters must outlive this
   EvidenceFinder(const Parameters& parameters, const SensorModel& sensor, const AngularGrid& grid);
 
-  /// @param scan with its references found
+  /// @param scan after `find_references`
   std::vector<VoxelIndex> find(const ScanAgainstMap& scan, const OccupancyMap& map,
                                const RunContext& context);
 
@@ -24,8 +24,8 @@ class EvidenceFinder {
 
   const Parameters& parameters_;
   int erase_rows_;
-  /// Of each brick: its number among those that rays pass through in this scan plus one, or 0. Kept
-  /// for its memory.
+  /// By brick: its number plus one among the bricks of the voxels in question, or 0. Kept for its
+  /// memory.
   std::vector<std::uint32_t> number_of_;
 };
 

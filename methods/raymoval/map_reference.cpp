@@ -25,12 +25,12 @@ struct WindowRow {
   int columns = 0;
   /// Ranks of two percentiles among 1 .. 9 finite values.
   std::array<std::array<int, 10>, 2> ranks{};
-  std::array<float*, 2> results{};  ///< Null where a percentile is not asked for.
+  std::array<float*, 2> results{};  ///< Null for a percentile that is not requested.
   float* scratch = nullptr;         ///< 3 x (columns + 2) numbers.
 };
 
 struct WindowKernel {
-  int lanes;  ///< Bins handled at a time; a row needs at least so many.
+  int lanes;  ///< Bins handled at a time; a row needs at least this number.
   void (*percentiles)(const WindowRow& job);
 };
 
@@ -90,7 +90,7 @@ HWY_INLINE void sort_nine(std::array<F, 9>& v) {
 }
 
 /// The second smallest of nine values of which three times three are sorted: the second smallest of
-/// the three smallest, or a middle one, which is never smaller than its own smallest.
+/// the three smallest, or one of the middle values.
 HWY_INLINE F second_smallest(const std::array<F, 9>& v) {
   const F low = hn::Min(v[0], v[3]), high = hn::Max(v[0], v[3]);
   const F middle = hn::Min(v[1], hn::Min(v[4], v[7]));
@@ -103,13 +103,13 @@ HWY_INLINE F second_largest(const std::array<F, 9>& v) {
   return hn::Max(middle, hn::Max(low, hn::Min(high, v[8])));
 }
 
-/// The value of each window at the rank that its number of finite values has.
+/// The value of each window at the rank for its number of finite values.
 HWY_INLINE F value_at_rank(const std::array<F, 9>& sorted, const std::array<int, 10>& ranks) {
   const F infinite = hn::Set(Floats(), std::numeric_limits<float>::infinity());
   const auto value_of = [&](std::size_t count) {
     return sorted[static_cast<std::size_t>(ranks[count])];
   };
-  // The infinite ones come last: as many values are finite as the last finite one says.
+  // Infinite values come last, so the index of the last finite value gives their number.
   F result = value_of(1);
   for (std::size_t count = 2; count <= 9; ++count) {
     result = hn::IfThenElse(hn::Lt(sorted[count - 1], infinite), value_of(count), result);

@@ -26,7 +26,7 @@ class RaymovalRun {
         test_(parameters, scans.sensor()),
         evidence_finder_(parameters, scans.sensor(), test_.grid()) {}
 
-  /// The online answer: each scan is tested against the map of the scans before it.
+  /// The online result: each scan is tested against the map of the previous scans.
   void answer_online(RemovalSink& sink) {
     for_each_scan("raymoval", scans_, context_, [&](Scan scan) {
       const std::size_t index = scan.index;
@@ -34,7 +34,7 @@ class RaymovalRun {
     });
   }
 
-  /// The prior map of an offline run: all points, less what any scan sees through.
+  /// The prior map of an offline run: all points, without the voxels that any scan sees through.
   StaticMap& build_prior_map() {
     collect_all_points();
     for_each_scan("raymoval", scans_, context_,
@@ -61,11 +61,11 @@ class RaymovalRun {
         [&](const RunContext& context) {
           seen_through = evidence_finder_.find(test_, map_.occupied(), context);
         });
-    left_over_ = {std::move(seen_through), dynamic};  // The map takes it in before the next cast.
+    left_over_ = {std::move(seen_through), dynamic};  // Added to the map before the next cast.
     return dynamic;
   }
 
-  /// The part of section 3 that erases what a scan sees through.
+  /// The part of section 3 that erases the voxels that a scan sees through.
   void erase_seen_through(Scan scan) {
     project(std::move(scan));                              // eqs 1-3, 10
     test_.cast_first_hits(map_.occupied(), context_);      // eqs 4-7
@@ -73,8 +73,8 @@ class RaymovalRun {
     left_over_ = {evidence_finder_.find(test_, map_.occupied(), context_), {}};
   }
 
-  /// Projects a scan, and beside it brings the map up to date with the scan before, whose answer
-  /// did not have to wait for that.
+  /// Projects a scan and, in parallel, updates the map with the previous scan. The result of the
+  /// previous scan does not need this update.
   void project(Scan scan) {
     side_by_side(
         context_, "binning and integration",
@@ -83,8 +83,8 @@ class RaymovalRun {
     test_.take_next();
   }
 
-  /// Takes out of the map what the scan at hand saw through, and adds its points that are not
-  /// dynamic.
+  /// Removes the voxels that the current scan saw through from the map, and adds the scan's points
+  /// that are not dynamic.
   void update_map(const RunContext& context) {
     {
       const StageScope timed(context.times, "integration");
@@ -99,7 +99,7 @@ class RaymovalRun {
     map_.occupied().update_boxes(context.threads);
   }
 
-  /// Each scan is added to the map beside the search for the next one's voxels.
+  /// Each scan is added to the map in parallel with the search for the voxels of the next scan.
   void collect_all_points() {
     VoxelRuns at_hand, next;
     const auto integrate = [&](const RunContext& context) {
@@ -121,10 +121,10 @@ class RaymovalRun {
   StaticMap map_;
   ScanAgainstMap test_;
   EvidenceFinder evidence_finder_;
-  /// What the map has not taken in yet of the scan at hand.
+  /// The update of the map from the current scan that is not done yet.
   struct LeftOver {
     std::vector<VoxelIndex> seen_through;
-    Mask dynamic;  ///< Empty if no points are to be added.
+    Mask dynamic;  ///< Empty if no points are added.
   };
   LeftOver left_over_;
 };
@@ -149,8 +149,7 @@ std::vector<std::uint8_t> reasons_for(const Mask& candidates, const Mask& dynami
   return codes;
 }
 
-/// The offline answer: tests every scan against the finished map, as many scans at a time as there
-/// are threads.
+/// The offline result: tests every scan against the finished map, one scan per thread at a time.
 void answer_from_map(StaticMap& map, const Parameters& parameters, const ScanSource& scans,
                      RemovalSink& sink, const RunContext& context) {
   if (context.reasons != nullptr) context.reasons->explain(reason_sentences());

@@ -8,8 +8,8 @@
 namespace raymoval {
 namespace raymoval_method {
 
-/// Parameters of the paper's method. What the paper prints is named in the table of
-/// entry.cpp; every other member settles something the paper leaves open.
+/// Parameters of the paper's method. The table of entry.cpp names the parameters of the paper; the
+/// others decide what the paper leaves open.
 struct Parameters {
   // Angular grid (eqs 2-5).
   int azimuth_bins = 720;
@@ -22,7 +22,7 @@ struct Parameters {
   // Map reference (eqs 8-9).
   int neighbourhood = 1;
   double percentile = 0.9;
-  // Forward test: the scan stands in front of the map (eq. 11).
+  // Forward test: the scan is in front of the map (eq. 11).
   double tau0 = 0.30;
   double tau1 = 0.35;
   // Erase test: the scan sees through the map.

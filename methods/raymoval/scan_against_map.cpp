@@ -11,8 +11,8 @@
 namespace raymoval::raymoval_method {
 namespace {
 
-/// Bins of a step, or `otherwise` where the step is unknown. No sensor of today has finer steps
-/// than `most` bins allow; a wrong step then costs no more memory than the finest sensor would.
+/// Bins of a step, or `otherwise` where the step is unknown. No current sensor has finer steps than
+/// `most` bins allow. This limits the memory cost of a wrong step.
 int bins_of(double width, double step, int otherwise, double most) {
   constexpr double kFewestBins = 36.0;
   if (!(step > 0.0)) return otherwise;
@@ -49,7 +49,7 @@ void ScanAgainstMap::project_next(Scan scan, const RunContext& context) {
   next_.scan = std::move(scan);
   find_voxels(next_.scan, 1.0 / parameters_.voxel_size, context.threads, next_.voxels);
   project(next_.scan, grid_, parameters_.minimum_range, context.threads, next_.projected);
-  // Eq. 8 is asked for where the scan has a return.
+  // Eq. 8 is needed where the scan has a return.
   next_.wanted.ask_around(next_.projected.minimum_range, grid_, parameters_.neighbourhood);
 }
 

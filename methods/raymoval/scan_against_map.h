@@ -15,19 +15,19 @@
 
 namespace raymoval::raymoval_method {
 
-/// The grid of directions that `parameters` ask for with this sensor (eq. 2).
+/// The grid of directions for `parameters` and this sensor (eq. 2).
 AngularGrid grid_for(const SensorModel& sensor, const Parameters& parameters);
 
-/// The tests that ask for a map reference.
+/// The tests that need a map reference.
 enum class Tests {
   kBoth,
-  kForward,  ///< Eq. 11: the scan stands in front of the map.
+  kForward,  ///< Eq. 11: the scan is in front of the map.
   kErase,    ///< The scan sees through the map.
 };
 
-/// One scan against a map: the steps of section 3 in their order, each of which needs those before
-/// it. It keeps its memory from scan to scan; each thread at work needs one of its own.
-/// @note all scans must be compared with one and the same map, which may change between them
+/// One scan against a map: the steps of section 3 in order; each needs the earlier steps. It keeps
+/// its memory from scan to scan; each thread needs its own object.
+/// @note all scans must be compared with the same map, which may change between them
 class ScanAgainstMap {
  public:
   /// @param parameters must outlive this
@@ -38,19 +38,17 @@ class ScanAgainstMap {
     project_next(std::move(scan), context);
     take_next();
   }
-  /// The same for the scan to come. What is known of the scan at hand stays as it is until
-  /// `take_next`.
+  /// The same for the next scan. The data of the current scan is not changed until `take_next`.
   void project_next(Scan scan, const RunContext& context);
-  /// Makes the scan projected last the one at hand.
+  /// Makes the next scan the current one.
   void take_next() { std::swap(at_hand_, next_); }
-  /// Eqs 4-7. It changes nothing of a map whose boxes are up to date.
+  /// Eqs 4-7. It does not change a map whose boxes are up to date.
   void cast_first_hits(OccupancyMap& map, const RunContext& context);
-  /// Eqs 8-9 where the scan has a return, for the tests to come. It also looks the points' voxels
-  /// up.
+  /// Eqs 8-9 where the scan has a return, for `tests`. It also looks up the points' voxels.
   void find_references(const StaticMap& map, const RunContext& context, Tests tests = Tests::kBoth);
   /// Eq. 11, and the erase cases of Fig. 1: points in voxels that a scan saw through.
   [[nodiscard]] Mask find_candidates(const RunContext& context) const;
-  /// Eqs 12-15. It gives back the candidates themselves if they are not to be validated.
+  /// Eqs 12-15. It returns the candidates themselves without `Parameters::validate`.
   [[nodiscard]] Mask validate(const Mask& candidates, const OccupancyMap& static_map,
                               const RunContext& context) const;
 
@@ -62,16 +60,16 @@ class ScanAgainstMap {
   [[nodiscard]] const std::vector<float>& erase_reference() const { return references_.second; }
   /// The voxels of the points in the world lattice.
   [[nodiscard]] const VoxelRuns& voxels() const { return at_hand_.voxels; }
-  /// What the map knew of the voxel of each run of points when it was looked up.
+  /// The state of the voxel of each run of points when it was looked up.
   [[nodiscard]] const VoxelLookup& known() const { return known_; }
 
  private:
-  /// What is known of a scan without the map.
+  /// The data of a scan that does not depend on the map.
   struct ScanInGrid {
     Scan scan;
     VoxelRuns voxels;
     ProjectedScan projected;
-    WantedBins wanted;  ///< Where the steps below look at first hits.
+    WantedBins wanted;  ///< The bins of first hits that the steps below need.
   };
   const Parameters& parameters_;
   AngularGrid grid_;

@@ -12,7 +12,7 @@ void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
   found.states.resize(voxels.size());
   constexpr std::size_t kGrain = 4096, kPiece = 256;
   parallel_chunks(threads, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    // The bricks of some voxels are on their way to the processor before they are looked into.
+    // The bricks of some voxels are prefetched before they are read.
     for (std::size_t piece = begin; piece < end; piece += kPiece) {
       const std::size_t last = std::min(piece + kPiece, end);
       find_slots(voxels, piece, last, found.slots);
@@ -24,7 +24,7 @@ void StaticMap::look_up(const std::vector<VoxelIndex>& voxels, int threads,
 void StaticMap::find_slots(const std::vector<VoxelIndex>& voxels, std::size_t begin,
                            std::size_t end, std::vector<Slot>& slots) const {
   Eigen::Vector3i last = OccupancyMap::brick_of(voxels[begin]);
-  last.x() += 1;  // Not the first one's.
+  last.x() += 1;  // Differs from the first voxel.
   Slot slot = OccupancyMap::kNoBrick;
   for (std::size_t k = begin; k < end; ++k) {
     const Eigen::Vector3i brick = OccupancyMap::brick_of(voxels[k]);

@@ -6,20 +6,20 @@
 
 namespace raymoval::raymoval_method {
 
-/// What a map knows of a voxel.
+/// The state of a voxel in a map.
 enum class VoxelState : std::uint8_t {
   kEmpty,
   kOccupied,
   kErased,  ///< A scan saw through it.
 };
 
-/// What a map knows of the voxels of a scan's points.
+/// The states of the voxels of a scan's points.
 struct VoxelLookup {
   std::vector<OccupancyMap::Slot> slots;  ///< The brick of each voxel; kNoBrick if there is none.
   std::vector<VoxelState> states;
 };
 
-/// The map M of the paper, and the voxels that were seen through, which are never filled again.
+/// The map M of the paper, and the voxels that were seen through, which are not filled again.
 /// Memory is bounded by the number of observed voxels.
 class StaticMap {
  public:
@@ -29,14 +29,14 @@ class StaticMap {
 
   [[nodiscard]] const OccupancyMap& occupied() const { return occupied_; }
   [[nodiscard]] OccupancyMap& occupied() { return occupied_; }
-  /// Brick and state of each voxel, in one pass. Quick where neighbours follow each other.
+  /// Brick and state of each voxel, in one pass. Fast if neighbours are consecutive.
   void look_up(const std::vector<VoxelIndex>& voxels, int threads, VoxelLookup& found) const;
 
   /// Adds the voxels of all points that are not dynamic.
-  /// @param found what `look_up` gave for them; voxels may have been erased since
+  /// @param found the result of `look_up` for them; voxels may have been erased since
   void integrate(const std::vector<VoxelIndex>& voxels, const VoxelLookup& found,
                  const Mask& dynamic);
-  /// Adds all of them, known or not. Quick where neighbours follow each other.
+  /// Adds all voxels, known or not. Fast if neighbours are consecutive.
   void integrate(const std::vector<VoxelIndex>& voxels);
   /// Removes a voxel that a scan saw through.
   void erase(const VoxelIndex& voxel);
@@ -61,7 +61,7 @@ class StaticMap {
   }
 
   OccupancyMap occupied_;
-  /// Where the erased voxels of each brick are in `erased_`. Few bricks have any.
+  /// The index of each brick's erased voxels in `erased_`. Few bricks have any.
   std::vector<std::uint32_t> erased_of_;
   std::vector<Brick> erased_;
 };

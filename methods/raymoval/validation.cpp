@@ -36,8 +36,8 @@ std::vector<FirstElement> sorted_voxels(const std::vector<VoxelKey>& voxels, Dis
   return sorted;
 }
 
-/// Joins each voxel with those that lie (-gap .. gap, y, z) cells from it. Sorted voxels run along
-/// x, so that one pass with two marks finds them.
+/// Joins each voxel with those at offsets (-gap .. gap, y, z). Sorted voxels run along x, so that
+/// one pass with two positions finds them.
 void join_rows(const std::vector<FirstElement>& sorted, int y, int z, int gap, DisjointSets& sets) {
   const VoxelKey offset = voxel_key(0, y, z) - voxel_key(0, 0, 0);
   const auto reach = static_cast<VoxelKey>(gap);
@@ -217,7 +217,7 @@ double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const Oc
 
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
                                      const OccupancyMap& static_map, const Parameters& parameters) {
-  if (parameters.support_share >= 1.0) return cluster;  // Nothing is supported, as documented.
+  if (parameters.support_share >= 1.0) return cluster;  // No member is supported, as documented.
   OccupancyMap removed(static_map.voxel_size());
   for (const int member : cluster) removed.insert(points.voxel[at(member)]);
   std::vector<int> unsupported;

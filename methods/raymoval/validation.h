@@ -35,7 +35,7 @@ std::vector<int> joined_groups(const std::vector<int>& cluster_of,
 /// The members of each numbered set that has any. Sets and members are in ascending order.
 std::vector<std::vector<int>> members_of(const std::vector<int>& numbers);
 
-/// Points of one scan that are candidates for removal, element by element.
+/// Points of one scan that are candidates for removal, one element per point.
 struct ScanPoints {
   std::vector<Eigen::Vector3d> position;  ///< World, metres.
   std::vector<VoxelIndex> voxel;
@@ -43,36 +43,37 @@ struct ScanPoints {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
-/// m(r) of eq. 13: points a cluster at range r needs, `cluster_points` at 10 m, falling with the
-/// square of the range as the solid angle of an object does, at least 3.
+/// m(r) of eq. 13: the number of points that a cluster at range r needs, at least 3. It is
+/// `cluster_points` at 10 m and falls with the square of the range, like the solid angle of an
+/// object.
 double cluster_points_at(double range, const Parameters& parameters);
 
-/// Eqs 12-13: whether a cluster is large enough to be an object. The width that it needs, d(r), is
-/// the same at all ranges.
+/// Eqs 12-13: whether a cluster is large enough to be an object. The required width d(r) is the
+/// same at all ranges.
 bool passes_cluster_screen(const std::vector<int>& members, const ScanPoints& points,
                            const Parameters& parameters);
 
-/// Eq. 14: the share of `members` that lies within `dilation` voxels of the static map.
+/// Eq. 14: the share of `members` within `dilation` voxels of the static map.
 double coverage(const std::vector<int>& members, const ScanPoints& points,
                 const OccupancyMap& static_map, int dilation);
 
-/// Eq. 15: whether a group belongs to the static map after all. @param thinnest_side metres
+/// Eq. 15: whether a group belongs to the static map. @param thinnest_side metres
 bool belongs_to_static(double group_coverage, double thinnest_side, const Parameters& parameters);
 
 /// The share of static voxels among the static and the removed ones within `dilation` cells of
-/// `voxel` (itself included). It is 0 where there are none.
+/// `voxel` (itself included). It is 0 if there are none.
 double support(const VoxelIndex& voxel, const OccupancyMap& static_map, const OccupancyMap& removed,
                int dilation);
 
-/// Members of a dynamic cluster that do not stand among static voxels: their support, with the
-/// cluster's own voxels as the removed ones, is below `support_share`.
+/// Members of a dynamic cluster that are not among static voxels: their support, with the cluster's
+/// voxels as the removed ones, is below `support_share`.
 std::vector<int> unsupported_members(const std::vector<int>& cluster, const ScanPoints& points,
                                      const OccupancyMap& static_map, const Parameters& parameters);
 
 /// Spatial consistency validation of a scan's candidates (section 3 of the paper): range-adaptive
 /// clusters, screens (12-13), groups of neighbouring clusters against the static map (14-15), then
-/// the unsupported points of what stays dynamic, and no remainder smaller than minimum_points or
-/// narrower than minimum_width.
+/// only unsupported points stay dynamic, without remainders smaller than minimum_points or narrower
+/// than minimum_width.
 /// @return 1 for each candidate that stays dynamic
 Mask validate_candidates(const ScanPoints& candidates, const OccupancyMap& static_map,
                          const Parameters& parameters);

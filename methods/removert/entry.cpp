@@ -75,7 +75,7 @@ Table make_table() {
 
 namespace {
 
-/// Everything the public code and its port share.
+/// The values that the public code and its port share.
 Configuration removert_code() {
   return {{"difference", std::string("absolute")}, {"clamp_fov", true}, {"wrap_azimuth", false}};
 }
@@ -85,7 +85,7 @@ Configuration removert_with(Configuration base, const Configuration& more) {
   return base;
 }
 
-/// The first is what the bare name means.
+/// The first is the default.
 std::vector<MethodVariant> removert_variants() {
   const Configuration code = removert_code();
   return {

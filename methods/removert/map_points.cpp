@@ -24,7 +24,7 @@ bool comes_first(VoxelKey a, VoxelKey b) {
   return group_a != group_b ? group_a < group_b : a < b;
 }
 
-/// A little larger than it need be, so that rounding leaves no point outside.
+/// A slightly enlarged ball, so that rounding leaves no point outside.
 Ball ball_around(const Eigen::AlignedBox3d& box) {
   return {box.center(), static_cast<float>(0.5 * box.diagonal().norm() * 1.0001 + 1e-5)};
 }
@@ -40,7 +40,7 @@ void open_block(MapPoints& points, const Block& model) {
   points.blocks.push_back({model.key, model.centre, points.size(), points.size(), {}});
 }
 
-/// Closes the block opened last; an empty one is dropped.
+/// Closes the last opened block; an empty block is dropped.
 void close_block(MapPoints& points) {
   points.blocks.back().end = points.size();
   if (points.blocks.back().begin == points.size()) points.blocks.pop_back();

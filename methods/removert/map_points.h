@@ -10,7 +10,7 @@
 
 namespace raymoval::removert_method {
 
-/// Ball around points, for leaving them out of a pass together.
+/// Ball around points, so that a pass can skip them together.
 struct Ball {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< World frame, metres.
   float radius = 0.0F;
@@ -30,8 +30,8 @@ struct BlockGroup {
   Ball ball;
 };
 
-/// The map, as points relative to the centres of their blocks: 16 bytes a point. The order of the
-/// points is fixed by their place in the world.
+/// The map, as points relative to the centres of their blocks: 16 bytes per point. The order of the
+/// points depends only on their positions in the world.
 struct MapPoints {
   std::vector<Block> blocks;
   std::vector<BlockGroup> groups;
@@ -43,7 +43,7 @@ struct MapPoints {
     return block.centre + Eigen::Vector3d(x[i], y[i], z[i]);
   }
   void reserve(std::size_t points);
-  /// Finds balls and groups, once all blocks are there in order.
+  /// Finds balls and groups, after all blocks were added in order.
   void close();
 };
 
@@ -75,8 +75,8 @@ class CellLattice {
   int bits_ = 0;  ///< A block has 2^bits cells along an edge.
 };
 
-/// Collects points into the map: one centroid per cell. An entry takes 20 bytes; at
-/// most half as many again as there are cells, and 32 a block, wait to be merged.
+/// Collects points into the map: one centroid per cell. An entry takes 20 bytes. At most half as
+/// many entries as there are cells, plus 32 per block, are not merged yet.
 class MapBuilder {
  public:
   explicit MapBuilder(const CellLattice& lattice);
@@ -95,7 +95,7 @@ class MapBuilder {
   struct OpenBlock {
     VoxelKey key;
     std::vector<Entry> entries;
-    std::size_t merged = 0;  ///< The first so many entries are of different cells.
+    std::size_t merged = 0;  ///< This number of first entries are of different cells.
   };
   void append(VoxelKey block, const Entry& entry);
   void merge(OpenBlock& block);

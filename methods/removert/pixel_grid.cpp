@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-/// Pixels of doubt at one pixel per degree: ten times what single precision can be wrong.
+/// Uncertainty in pixels at one pixel per degree: ten times the error of single precision.
 constexpr double kMargin = 1e-3;
 
 }  // namespace
@@ -30,8 +30,8 @@ PixelGrid::PixelGrid(const Parameters& parameters, double resolution)
 int PixelGrid::pixel_of(const Eigen::Vector3d& point) const {
   const double row = raw_row(std::atan2(point.z(), std::hypot(point.x(), point.y())));
   const double column = raw_column(std::atan2(point.y(), point.x()));
-  // std::lround would round halves away from zero; the two differ below zero only, and what lies
-  // there is clamped or outside.
+  // std::lround would round halves away from zero. The two differ only below zero, where values are
+  // clamped or outside.
   return pixel_from(row, column, static_cast<int>(std::floor(row + 0.5)),
                     static_cast<int>(std::floor(column + 0.5)));
 }

@@ -9,16 +9,15 @@
 
 namespace raymoval::removert_method {
 
-inline constexpr int kOutside =
-    -1;  ///< The point is in no pixel: it lies outside the field of view.
+inline constexpr int kOutside = -1;  ///< The point is outside the field of view.
 inline constexpr int kAmbiguous =
-    -2;  ///< The point is too near a pixel's border to tell in single precision.
+    -2;  ///< The point is too near to a pixel's border for single precision.
 
 /// Pixels of a range image: rows from the top of the field of view down, columns with the azimuth
-/// from behind the sensor (-180 deg) counter-clockwise; pixel = row * columns + column.
-/// Rounding to the nearest of R + 1 rows and C + 1 columns is the public code's: the first row has
-/// half a width, the last one and a half; with a wrapped azimuth the last half column joins the
-/// first.
+/// from behind the sensor (-180 deg) counter-clockwise; pixel = row * columns + column. As in the
+/// public code, values are rounded to the nearest of R + 1 rows and C + 1 columns: the first row
+/// has half a width, the last row one and a half. With a wrapped azimuth the last half column joins
+/// the first.
 class PixelGrid {
  public:
   /// R = round(V * resolution), C = round(H * resolution).
@@ -42,7 +41,7 @@ class PixelGrid {
   [[nodiscard]] double row_scale() const { return row_scale_; }
   [[nodiscard]] double column_scale() const { return column_scale_; }
 
-  /// Pixel of a point in the sensor frame, or kOutside. The definition everything else follows.
+  /// Pixel of a point in the sensor frame, or kOutside. The exact definition.
   [[nodiscard]] int pixel_of(const Eigen::Vector3d& point) const;
 
   /// Pixel of a fractional row and column in single precision: kAmbiguous if an error of
@@ -62,7 +61,7 @@ class PixelGrid {
     return pixel_from(row, column, row_cell, column_cell);
   }
 
-  /// Rows above this mark points too near the sensor's axis for single precision.
+  /// Row values above this mark points too near to the sensor's axis for single precision.
   static constexpr float kNearAxis = 1e6F;
 
  private:
@@ -95,15 +94,16 @@ class PixelGrid {
   float margin_;  ///< Pixels.
 };
 
-/// Up to `kSize` points of the sensor frame with their places in a grid, in single precision. A
-/// compiler can work on several elements of the arrays at a time.
+/// Up to `kSize` points of the sensor frame with their pixels in a grid, in single precision, in
+/// arrays that a compiler can vectorise.
 struct PointBatch {
   static constexpr int kSize = 128;
   float x[kSize], y[kSize], z[kSize];             ///< In: sensor frame, metres.
   float row[kSize], column[kSize], range[kSize];  ///< Out: fractional pixel, 3-D range in metres.
 
-  /// Fills the outputs of the first `count` points. Angles are good to 1e-6 rad; a point so near
-  /// the sensor's axis that they are not gets a row that `fast_pixel` calls ambiguous.
+  /// Fills the outputs of the first `count` points. The error of angles is at most 1e-6 rad. A
+  /// point too near to the sensor's axis for this gets a row for which `fast_pixel` returns
+  /// kAmbiguous.
   void project(const PixelGrid& grid, int count);
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // "Remove, then Revert: Static Point cloud Map Construction using Multiresolution Range Images",
-// Kim and Kim, IROS 2020. What is decided on what evidence stands in README.md.
+// Kim and Kim, IROS 2020. Decisions and their evidence: README.md.
 #include "methods/removert/removert.h"
 
 #include <algorithm>
@@ -22,13 +22,14 @@ class RemovertRun {
         scans_(scans),
         context_(context),
         lattice_(parameters.map_voxel),
-        // Which points of a map a pass has to look at.
+        // The points of a map that a pass must check.
         candidates_(parameters.difference == DifferenceRule::kAbsolute ? Candidates::kAll
                                                                        : Candidates::kInFront) {}
 
   void run(RemovalSink& sink) {
     MapPoints removed = remove(collect_map());
-    // Revert: of the removed points, seen alone, only those that a scan flags again are removed.
+    // Revert: a removed point stays removed only if a scan flags it again in the map of removed
+    // points.
     if (parameters_.revert_resolution_1 > 0.0) {
       removed = marked_points(removed, compare(removed, parameters_.revert_resolution_1), 1);
     }

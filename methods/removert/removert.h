@@ -10,10 +10,10 @@ namespace removert_method {
 
 enum class DifferenceRule {
   kSigned,    ///< Only map points in front of the scan's return are dynamic.
-  kAbsolute,  ///< Map points behind it too, as the public code does.
+  kAbsolute,  ///< Map points behind it too, as in the public code.
 };
 
-/// Units, ranges and sources stand in entry.cpp. A resolution of 0 leaves its pass out.
+/// Units, ranges and sources are in entry.cpp. A resolution of 0 skips its pass.
 struct Parameters {
   double remove_resolution_1 = 2.5;
   double remove_resolution_2 = 2.2;
@@ -35,12 +35,12 @@ struct Parameters {
 };
 
 /// The method of "Remove, then Revert: Static Point cloud Map Construction using Multiresolution
-/// Range Images" (Kim and Kim, IROS 2020), written from its description; nothing of the public
-/// code, whose licence forbids commercial use, is in it.
+/// Range Images" (Kim and Kim, IROS 2020), written from its description. It contains nothing of the
+/// public code, whose licence forbids commercial use.
 ///
-/// What was decided where the paper's programs disagree or are silent is listed in the entry's
-/// `notes`. Of the map only centroids are held, at the peak about 75 bytes per cell of `map_voxel`;
-/// scans are read once per pass.
+/// Decisions where the paper's programs differ or are unclear: `notes` of the entry. Only the map's
+/// centroids are held in memory, at most about 75 bytes per cell of `map_voxel`; scans are read
+/// once per pass.
 std::unique_ptr<Remover> make_removert(const Parameters& parameters);
 
 }  // namespace removert_method

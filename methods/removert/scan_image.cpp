@@ -7,7 +7,7 @@
 namespace raymoval::removert_method {
 namespace {
 
-/// Nearest range of the points in each pixel, -1 where there is none.
+/// Nearest range of the points in each pixel; -1 without a point.
 std::vector<float> project_nearest(const std::vector<Eigen::Vector3f>& points,
                                    const PixelGrid& grid) {
   std::vector<float> nearest(static_cast<std::size_t>(grid.size()), -1.0F);

@@ -14,7 +14,7 @@ class MaximumPyramid {
   MaximumPyramid(const std::vector<float>& image, int rows, int columns);
 
   /// An upper bound of the values in rows [row_from, row_to] and columns [column_from, column_to].
-  /// The ends are included and lie inside the image.
+  /// The ends are included and inside the image.
   [[nodiscard]] float bound(int row_from, int row_to, int column_from, int column_to) const;
   [[nodiscard]] float top() const { return levels_.back().values.front(); }
 
@@ -26,7 +26,7 @@ class MaximumPyramid {
   std::vector<Level> levels_;
 };
 
-/// Which map points a pass looks at.
+/// The map points that a pass checks.
 enum class Candidates {
   kInFront,  ///< The points clearly in front of the scan, which suffice to find the dynamic ones.
   kAll,      ///< All points in pixels where the scan has a return.
@@ -39,8 +39,8 @@ struct ScanImage {
             const Parameters& parameters, Candidates candidates);
 
   PixelGrid grid;
-  std::vector<float> nearest;  ///< Metres; -1 where no point is.
-  /// A map point is looked at if its range is below this limit: I_Q - tau, infinite for all points,
+  std::vector<float> nearest;  ///< Metres; -1 without a point.
+  /// A map point is checked if its range is below this limit: I_Q - tau, infinite for all points,
   /// or -1 for none.
   std::vector<float> limit;
   MaximumPyramid limit_pyramid;

@@ -11,10 +11,10 @@
 namespace raymoval::removert_method {
 namespace {
 
-/// Single precision is never wrong by more than this share of a range.
+/// Upper bound of the relative error of ranges in single precision.
 constexpr float kRangeSlack = 1e-5F;
 
-/// Pixels and radians by which the bounds of a ball are widened for rounding.
+/// Enlargement of the bounds of a ball for rounding, pixels and radians.
 constexpr float kPixelSlack = 0.02F;
 
 constexpr float kPi = static_cast<float>(std::numbers::pi);
@@ -28,7 +28,7 @@ int rounded(float raw) {
   return static_cast<int>(std::floor(raw + 0.5F));
 }
 
-/// Largest limit in rows [top, bottom] and columns [left, right], which may go round the seam.
+/// Largest limit in rows [top, bottom] and columns [left, right], which may cross the seam.
 float bound_around(const MaximumPyramid& pyramid, int columns, int top, int bottom, int left,
                    int right) {
   if (right - left >= columns - 1) return pyramid.bound(top, bottom, 0, columns - 1);
@@ -53,13 +53,13 @@ std::pair<int, int> columns_around(const PixelGrid& grid, float azimuth, float h
   const int right = rounded(middle + (azimuth + half_width) * scale + kPixelSlack);
   // Without wrapping, the half column before the seam is rounded into the last column.
   if (grid.full_circle()) return {left == 0 && !grid.wraps() ? -1 : left, right};
-  // Beyond the seam points come in from the other side of the image.
+  // Beyond the seam, points are at the other side of the image.
   if (std::abs(azimuth) + half_width >= kPi - 0.01F) return all;
   return {std::clamp(left, 0, grid.columns() - 1), std::clamp(right, 0, grid.columns() - 1)};
 }
 
 /// An upper bound of the limits in the pixels that points of a ball can fall into. It is -1 if they
-/// cannot fall into any pixel or all lie too far.
+/// cannot fall into any pixel or are all too far.
 float limit_around(const PixelGrid& grid, const MaximumPyramid& limits,
                    const Eigen::Vector3f& centre, float radius) {
   const float distance = centre.norm();
@@ -85,7 +85,7 @@ float limit_around(const PixelGrid& grid, const MaximumPyramid& limits,
 
 }  // namespace
 
-/// A scan's image with the motion into its frame, in both precisions.
+/// A scan's image with the transformation into its frame, in both precisions.
 struct VisibilityPass::View {
   View(const ScanImage& image, const Pose& T_image_world)
       : scan(image),
@@ -95,7 +95,7 @@ struct VisibilityPass::View {
   [[nodiscard]] float limit_around_ball(const Ball& ball) const {
     return limit_around(scan.grid, *limits, (pose * ball.centre).cast<float>(), ball.radius);
   }
-  /// From now on the points behind the map points found so far are left out too.
+  /// From now on, points behind the map points that were already found are skipped too.
   void hide_behind(const std::vector<Nearest>& pixels) {
     std::vector<float> reach = scan.limit;
     for (std::size_t u = 0; u < reach.size(); ++u) {
@@ -196,7 +196,7 @@ void VisibilityPass::take_if_nearest(const View& view, const Eigen::Vector3d& po
   const auto u = static_cast<std::size_t>(pixel);
   const double range = point.norm();
   if (!(range < view.scan.limit[u])) return;
-  // Of two at the same range the first in the map's order is it.
+  // Of two points at the same range, the first in the map's order is the nearest.
   if (std::pair(range, id) >= std::pair(image.pixels[u].range, image.pixels[u].point)) return;
   if (image.pixels[u].point == kEmpty.point) image.touched.push_back(pixel);
   image.pixels[u] = {range, id};

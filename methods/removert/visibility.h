@@ -11,20 +11,20 @@
 
 namespace raymoval::removert_method {
 
-/// Compares a frozen map with scans, one range image each. The flags are the same in whatever order
-/// and from however many threads scans are shown.
+/// Compares a frozen map with scans, one range image each. The flags do not depend on the order of
+/// the scans or the number of threads.
 ///
-/// Map points are sorted out by bounds on blocks of them and in single precision; what is left is
-/// decided in double precision, so that the answer is that of projecting every map point.
+/// Most map points are excluded by bounds on blocks and in single precision. The others are decided
+/// in double precision, so that the result equals that of projecting every map point.
 class VisibilityPass {
  public:
   VisibilityPass(const MapPoints& map, const Parameters& parameters, Candidates candidates);
 
-  /// Flags what one scan sees through. Thread-safe.
+  /// Flags the map points that one scan sees through. Thread-safe.
   /// @param image made with the candidates of this pass
   void show(const ScanImage& image, const Pose& T_image_world);
 
-  /// 1 for each map point that was the nearest in its pixel and dynamic in some scan.
+  /// 1 for each map point that was nearest in its pixel and dynamic in any scan.
   [[nodiscard]] const Mask& flagged() const { return flagged_; }
 
  private:
@@ -34,7 +34,7 @@ class VisibilityPass {
   };
   static constexpr Nearest kEmpty{std::numeric_limits<double>::infinity(),
                                   std::numeric_limits<std::size_t>::max()};
-  /// Range image of the map (I_M), only where something was found.
+  /// Range image of the map (I_M), only for pixels with a map point.
   struct Image {
     std::vector<Nearest> pixels;
     std::vector<int> touched;

@@ -10,7 +10,7 @@
 
 namespace raymoval {
 
-/// A scan, and what became of its points.
+/// A scan with the verdict on each of its points.
 struct CleanedScan {
   const Scan& scan;
   /// For each point 1 = removed, 0 = kept, `kLeftOutMask` = in no output.
@@ -19,9 +19,9 @@ struct CleanedScan {
   const PointRecords* stored;  ///< The records of the scan; null if the sequence has none.
 };
 
-/// Something that `raymoval clean` writes. What it needs on the disk is made by its constructor, so
-/// that a place where nothing can be written is found before the work. It gets its name at the end,
-/// and leaves nothing behind if that does not come.
+/// An output of `raymoval clean`. The constructor creates its file or folder under a temporary
+/// name, so that a path that cannot be written is found before the work. `commit_with` renames it;
+/// without it no file is left behind.
 class CleanOutput {
  public:
   CleanOutput() = default;
@@ -31,13 +31,13 @@ class CleanOutput {
 
   /// Scans come in order. @throws DataError if the disk is full
   virtual void add(const CleanedScan& scan) = 0;
-  /// Puts all of it on the disk: what can fail for lack of space has failed after this.
+  /// Writes everything to the disk, so that an error for lack of space occurs here.
   virtual void finish() = 0;
-  /// Lets `together` give it its name, after `finish`.
+  /// Lets `together` rename the output, after `finish`.
   virtual void commit_with(Replacements& together) = 0;
-  /// Points in it after `finish`, where it is a map; else 0.
+  /// Number of points of a map after `finish`; 0 for other outputs.
   [[nodiscard]] virtual std::uint64_t points() const { return 0; }
-  /// What a user should know of what was written after `finish`, in whole sentences.
+  /// Notes for the user on the written file after `finish`, in sentences.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 

@@ -19,7 +19,7 @@ constexpr double kLargest = 65535.0;
 void IntensityCount::add(const PointRecords& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double shown = rows.value(i, shown_.field) * scale_;
-    if (!(shown > 0.0)) continue;  // Zeros, and what is no number.
+    if (!(shown > 0.0)) continue;  // Zero or NaN.
     ++positive_;
     if (shown < 1.0) ++faint_;
     if (shown > kLargest + 0.5) ++too_large_;

@@ -14,7 +14,8 @@
 
 namespace raymoval {
 
-/// Counts what becomes of intensities where a file shows them as whole numbers from 0 to 65,535.
+/// Counts intensities that lose their value in a file that stores them as whole numbers from 0 to
+/// 65,535.
 class IntensityCount {
  public:
   /// @param scale see `RecordWriting::intensity_scale`
@@ -22,8 +23,8 @@ class IntensityCount {
 
   /// @param rows of the layout that `shown` is a field of
   void add(const PointRecords& rows);
-  /// What a user should know of it, in whole sentences: that most intensities are rounded to 0 or
-  /// 1, or that some are too large. @param option of the map, such as "-o"
+  /// Notes for the user, in sentences: most intensities are rounded to 0 or 1, or some are too
+  /// large. @param option of the map, such as "-o"
   [[nodiscard]] std::vector<std::string> remarks(const std::string& option) const;
 
  private:
@@ -41,8 +42,8 @@ struct MapContent {
   bool labelled = false;  ///< With the field of `labelled_layout`.
 };
 
-/// `layout` with a field behind it that says what became of a point: 9 = kept, 251 = removed. It is
-/// called `label`, or `raymoval_label` if there is a field of that name, which stays as it is.
+/// `layout` with a field added at its end: 9 = kept, 251 = removed. Its name is `label`, or
+/// `raymoval_label` if `layout` already has a field `label`.
 RecordLayout labelled_layout(const RecordLayout& layout);
 
 /// A map in the world frame. With a voxel size it holds a row for each occupied cell, so that
@@ -65,7 +66,7 @@ class MapOutput : public CleanOutput {
   [[nodiscard]] std::vector<std::string> remarks() const override;
 
  private:
-  /// The points that are kept, or those that are removed.
+  /// The kept points or the removed points.
   struct Side {
     std::uint8_t mask;
     std::unique_ptr<VoxelRows> cells;
@@ -76,7 +77,7 @@ class MapOutput : public CleanOutput {
                                     const std::vector<std::uint8_t>& removed) const;
 
   std::unique_ptr<RowSink> sink_;
-  RecordLayout layout_;  ///< Of what is written.
+  RecordLayout layout_;  ///< Of the written rows.
   bool labelled_;
   std::vector<Side> sides_;
   bool has_cells_;

@@ -15,7 +15,8 @@ constexpr double kPicturePixels = 1600.0;
 constexpr int kPictureMargin = 20;
 constexpr int kTitleHeight = 30, kLegendHeight = 30;
 
-/// The colours of what is right in pictures of labelled data: here nobody knows better.
+/// The colours of correct verdicts in pictures of labelled data: without labels no verdict is known
+/// to be wrong.
 constexpr Outcome kKept = Outcome::kKeptStatic, kRemoved = Outcome::kTruePositive;
 
 void draw_legend(Canvas& canvas, int x, int y) {

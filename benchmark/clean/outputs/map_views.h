@@ -11,12 +11,12 @@
 
 namespace raymoval {
 
-/// What pictures and pages say of a cleaned map.
+/// The texts of pictures and pages of a cleaned map.
 struct ViewTexts {
   std::string sequence, method;
 };
 
-/// The cleaned map from above as a PNG: grey what was kept, in a colour what was removed. Memory is
+/// The cleaned map from above as a PNG: kept points are grey, removed points coloured. Memory is
 /// bounded by the picture.
 class MapPictureFile : public CleanOutput {
  public:

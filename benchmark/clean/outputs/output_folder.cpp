@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Gives `made` the owner and the rights of `before`, as far as the system allows that, if both are
-/// of one kind.
+/// Gives `made` the owner and the rights of `before`, as far as the system allows it, if both are
+/// files or both are folders.
 void keep_rights(const fs::path& made, const fs::path& before) {
   struct stat now {};
   struct stat then {};
@@ -26,7 +26,7 @@ void keep_rights(const fs::path& made, const fs::path& before) {
   if ((now.st_mode & S_IFMT) != (then.st_mode & S_IFMT)) return;
   const bool same_owner = now.st_uid == then.st_uid && now.st_gid == then.st_gid;
   const bool owned = same_owner || ::lchown(made.c_str(), then.st_uid, then.st_gid) == 0;
-  // Rights of a group or of others that belonged with another owner are given to nobody.
+  // If the earlier owner cannot be set, the group and others get no rights.
   [[maybe_unused]] const int kept = ::chmod(made.c_str(), then.st_mode & (owned ? 0777U : 0700U));
 }
 

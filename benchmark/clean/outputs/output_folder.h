@@ -8,22 +8,22 @@
 
 namespace raymoval {
 
-/// A folder that is filled under another name beside its own, and gets its name when it is
-/// complete. It takes the rights of the folder that it replaces, and files in it those of the files
-/// that had their names.
+/// A folder that is filled under a temporary name beside its final path and renamed when it is
+/// complete. It takes the permissions of the folder that it replaces; its files take the
+/// permissions of earlier files of the same name.
 class OutputFolder {
  public:
-  /// Makes it. @throws DataError if that cannot be done
+  /// @throws DataError if the folder cannot be made
   explicit OutputFolder(const std::filesystem::path& path);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Where it is being filled.
+  /// The temporary folder.
   [[nodiscard]] const std::filesystem::path& place() const { return part_.place; }
-  /// Where it will be.
+  /// The final folder.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Lets `together` give it its name, in place of a folder that had it. @throws DataError
+  /// Lets `together` rename the folder, in place of an earlier one. @throws DataError
   void commit_with(Replacements& together);
 
  private:

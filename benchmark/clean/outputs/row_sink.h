@@ -10,8 +10,8 @@
 
 namespace raymoval {
 
-/// Where the rows of a map go. As `CleanOutput`, it opens at the beginning and has its name at the
-/// end.
+/// The destination of the rows of a map. Like `CleanOutput`, it is opened at the beginning and
+/// renamed at the end.
 class RowSink {
  public:
   RowSink() = default;
@@ -20,7 +20,7 @@ class RowSink {
   RowSink& operator=(const RowSink&) = delete;
 
   virtual void add(const ScanRows& rows) = 0;
-  /// Whether `add` looks at `ScanRows::world`, which may be empty otherwise.
+  /// Whether `add` reads `ScanRows::world`, which may be empty otherwise.
   [[nodiscard]] virtual bool needs_world() const { return true; }
   virtual void finish() = 0;
   virtual void commit_with(Replacements& together) = 0;

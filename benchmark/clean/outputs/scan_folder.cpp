@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 constexpr const char* kSettings = "sequence.json";
 constexpr const char* kOwnPoses = "poses.txt";
 
-/// Settings that are about poses or frames, which a pose file of our own takes the place of.
+/// Settings of poses and frames, which the folder's own pose file replaces.
 constexpr std::array kPoseSettings = {"poses",       "frames",    "T_sensor",       "time_offset_s",
                                       "pose_format", "max_gap_s", "poses_are_lidar"};
 
-/// `path` relative to `root`; nothing if it stands elsewhere.
+/// `path` relative to `root`; nothing if it is outside `root`.
 std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) {
   const fs::path relative =
       fs::weakly_canonical(path).lexically_relative(fs::weakly_canonical(root));
@@ -36,8 +36,8 @@ std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) 
   return relative;
 }
 
-/// The name of the file that a cleaned scan gets: that of the scan, without compression. What is
-/// in an archive becomes an array, and what is in no file a .pcd file.
+/// The file name of a cleaned scan: that of the scan, without compression. A scan of an archive
+/// becomes an array, and a scan without a file becomes a .pcd file.
 fs::path written_name(const FileScanSource* files, const Scan& scan) {
   if (files == nullptr) return scan.name + ".pcd";
   const fs::path& path = files->frames()[scan.index].path;

@@ -13,15 +13,15 @@ namespace raymoval {
 
 class FileScanSource;
 
-/// The files that the scans of `sequence` are stored in, whatever is done with them when they are
-/// read. Null if they are not read from files.
+/// The source that reads the scans of `sequence` from files, below any source that changes them.
+/// Null if the scans are not read from files.
 const FileScanSource* stored_files(const Sequence& sequence);
 
-/// How the cleaned scans of a sequence are laid out in a folder, so that it opens as the sequence
-/// does.
+/// The layout of a folder of cleaned scans that opens like the sequence itself.
 struct ScanFolderPlan {
-  std::filesystem::path root;   ///< The folder of the sequence.
-  std::filesystem::path scans;  ///< Where in it its scans stand; empty if right in it.
+  std::filesystem::path root;  ///< The folder of the sequence.
+  std::filesystem::path
+      scans;  ///< The folder of its scans, relative to `root`; empty if it is `root`.
   /// Files of `root` that are copied, relative to it.
   std::vector<std::filesystem::path> copies;
   /// Whether the folder gets a pose file of its own, with a row for each scan, because rows of the
@@ -30,14 +30,14 @@ struct ScanFolderPlan {
 };
 
 /// Scans of a recording become .pcd files.
-/// @throws UsageError naming what cannot be written: a simulated sequence, or a format that is only
-///   read, or that would lose something
+/// @throws UsageError for a simulated sequence, for a format that can only be read, or for one that
+///   would lose data
 ScanFolderPlan plan_scan_folder(const Sequence& sequence);
 
-/// The scans of a sequence without the points that were removed or left out: the same names, the
-/// same format (binary and not compressed), all fields bit for bit, with their poses, times and
-/// calibration, and labels of the points that are left where the sequence has labels.
-/// `cleaned.json` lists the files.
+/// The scans of a sequence without points that were removed or left out. Names, format (binary, not
+/// compressed) and all fields stay the same bit for bit. Poses, times and calibration are written
+/// as well, and the labels of the remaining points if the sequence has labels. `cleaned.json` lists
+/// the files.
 class ScanFolder : public CleanOutput {
  public:
   /// @param sequence must outlive this object
@@ -46,7 +46,7 @@ class ScanFolder : public CleanOutput {
   void add(const CleanedScan& scan) override;
   void finish() override;
   void commit_with(Replacements& together) override { folder_.commit_with(together); }
-  /// Names of scans of which no point is left, which no reader takes.
+  /// Names of scans without a remaining point; readers reject such scans.
   [[nodiscard]] const std::vector<std::string>& empty_scans() const { return empty_; }
 
  private:

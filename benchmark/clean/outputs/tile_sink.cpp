@@ -29,7 +29,8 @@ std::string tile_name(const std::array<std::int64_t, 2>& place) {
   return "tile_" + std::to_string(place[0]) + "_" + std::to_string(place[1]);
 }
 
-/// The tile of a position in the upright world; nothing where neighbours are not told apart.
+/// The tile of a position in the upright world; nothing where double precision cannot separate
+/// neighbouring tiles.
 std::optional<std::array<std::int64_t, 2>> tile_of(const Eigen::Vector3d& upright, double size_m) {
   const double x = std::floor(upright.x() / size_m), y = std::floor(upright.y() / size_m);
   constexpr double kFarthest = 1e15;
@@ -45,7 +46,7 @@ ordered_json vector_json(const Eigen::Vector3d& vector) {
 
 TileSink::TileSink(const std::filesystem::path& folder, const RecordLayout& layout, Tiling tiling)
     : folder_(folder), layout_(layout), tiling_(std::move(tiling)) {
-  // Refuses now what no tile could be written as.
+  // Refuses at once a format that no tile can be written in.
   PointRecordWriter trial(folder_.place() / ("tile" + tiling_.extension), tiling_.writing);
   trial.start(layout_);
 }

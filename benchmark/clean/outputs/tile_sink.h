@@ -15,17 +15,17 @@
 
 namespace raymoval {
 
-/// How a map is cut into tiles.
+/// The division of a map into tiles.
 struct Tiling {
   double size_m = 100.0;  ///< The edge of a tile.
-  /// The turn that brings up to z: tiles are squares in the horizontal plane.
+  /// The rotation that turns up to z: tiles are squares in the horizontal plane.
   Pose T_upright_world = Pose::Identity();
-  std::string extension = ".pcd";  ///< Says the format of the tiles.
+  std::string extension = ".pcd";  ///< The format of the tiles.
   RecordWriting writing = {};
-  std::size_t most_waiting = std::size_t{32} << 20;  ///< Bytes of rows that wait in memory.
+  std::size_t most_waiting = std::size_t{32} << 20;  ///< Bytes of rows buffered in memory.
 };
 
-/// Looks for too many tiles before the work, in a few scans.
+/// Checks in a few scans, before the work, that there are not too many tiles.
 /// @param size_m of a tile, or of a voxel if that is larger
 /// @param kept ranges that are in the map
 /// @throws UsageError if these scans alone fill more than `TileSink::kMostTiles`
@@ -34,13 +34,13 @@ void check_tile_count(const Sequence& sequence, double size_m,
 
 /// Cuts rows into square tiles, each a file in a folder, with a manifest.json that lists them. The
 /// tile of a point is floor(x / size), floor(y / size) of its position in the upright world, so
-/// that tiles of different runs fit together. Rows stand in order of arrival in each tile.
+/// that tiles of different runs fit together. Each tile keeps its rows in order of arrival.
 ///
-/// Rows wait in files of their own in the folder, some megabytes of them in memory, and at most one
-/// file is open at a time, however many tiles there are.
+/// Rows are spooled to one file per tile in the folder, with some megabytes of them buffered in
+/// memory. At most one file is open at a time, whatever the number of tiles.
 class TileSink : public RowSink {
  public:
-  /// More tiles than this are refused: they would be a mistake of units, and take minutes to write.
+  /// More tiles are refused: they suggest a mistake of units, and would take minutes to write.
   static constexpr std::size_t kMostTiles = 10'000;
 
   /// @throws DataError if the folder cannot be made; UsageError for an extension that is unknown

@@ -39,7 +39,7 @@ void write_axis(const std::vector<Eigen::Vector3d>& values, const PointField& fi
   });
 }
 
-/// Whether x, y and z are float32 one behind the other, as in most scans.
+/// Whether x, y and z are adjacent float32 values, as in most scans.
 bool are_plain(const PositionFields& at) {
   const auto is_float = [](const PointField& field) {
     return field.type == 'F' && field.size == 4;
@@ -146,7 +146,7 @@ std::vector<Eigen::Vector3d> MapRows::world_points(const Scan& scan,
     }
     if (frame_ == PointFrame::kWorld) return points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      // A point that was moved, as by --deskew, has no more digits than `scan` has of it.
+      // A point that was moved, such as by --deskew, has only the digits that `scan` holds.
       const bool moved = !as_stored || points[i].cast<float>() != scan.points[i];
       points[i] = scan.T_world_sensor * (moved ? scan.points[i].cast<double>() : points[i]);
     }
@@ -172,7 +172,8 @@ void MapRows::turn_normals(const Scan& scan, PointRecords& rows) const {
 
 std::shared_ptr<const LasNotes> MapRows::las_notes(const PointRecords& stored) const {
   if (stored.las == nullptr || frame_ == PointFrame::kWorld) return stored.las;
-  // A grid of 0.1 mm reaches 200 km; that of a scan around a sensor may reach no further than it.
+  // A grid of 0.1 mm covers 200 km; the grid of a scan may only cover the surroundings of the
+  // sensor.
   constexpr double kFinest = 1e-4;
   auto notes = std::make_shared<LasNotes>(*stored.las);
   notes->scale = notes->scale.cwiseAbs().cwiseMax(kFinest);

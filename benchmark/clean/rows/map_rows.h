@@ -16,7 +16,7 @@
 
 namespace raymoval {
 
-/// How a map is written so that coordinates lose no digits.
+/// Settings by which the coordinates of a map lose no digits.
 struct MapPrecision {
   /// The origin from which voxels are counted, see `lattice_origin`.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -31,16 +31,15 @@ struct ScanRows {
   std::vector<Eigen::Vector3d> world;  ///< The same positions before they were rounded, metres.
 };
 
-/// Makes rows of a map out of scans. All fields that are stored of a point go through bit for bit,
-/// but for two:
-/// - x, y and z are those of the world frame. Points that are stored in the world frame stay as
-///   they are.
-/// - normals of points that are stored in the sensor frame are turned with their scan.
-/// Points that have no records, such as those of a scene in memory, have x, y, z and intensity (0
-/// in scans without reflectance).
+/// Makes rows of a map out of scans. All stored fields of a point are copied bit for bit, except:
+/// - x, y and z are those of the world frame. Points that are stored in the world frame are not
+///   changed.
+/// - normals of points that are stored in the sensor frame are rotated with their scan. Points that
+/// have no records, such as those of a scene in memory, have x, y, z and intensity (0 in scans
+/// without reflectance).
 class MapRows {
  public:
-  /// Looks at the fields of all scans. Those of the first scan count.
+  /// Checks the fields of all scans against those of the first scan.
   /// @param sequence must outlive this object
   /// @throws DataError if a scan has other fields, naming it and the field; Cancelled
   MapRows(const Sequence& sequence, Coordinates coordinates, Progress& progress,
@@ -48,19 +47,19 @@ class MapRows {
 
   /// Of all rows.
   [[nodiscard]] const RecordLayout& layout() const { return layout_; }
-  /// Whether x, y and z of the map are float64 although no scan has them so.
+  /// Whether x, y and z of the map are float64 although all scans have smaller types.
   [[nodiscard]] bool is_widened() const { return is_widened_; }
 
   /// The rows of all points of `scan`. Thread-safe.
   /// @param stored its records; null if the sequence has none
-  /// @throws DataError if the records have changed since they were looked at
+  /// @throws DataError if the records have changed since the constructor read them
   [[nodiscard]] ScanRows rows(const Scan& scan, const PointRecords* stored) const;
 
  private:
   void check_fields(const Sequence& sequence, Progress& progress, const std::atomic<bool>& cancel);
   [[nodiscard]] std::vector<Eigen::Vector3d> world_points(const Scan& scan,
                                                           const PointRecords* stored) const;
-  /// What a LAS file of the map takes over from the scan's.
+  /// The parts of a scan's LAS header that a LAS file of the map takes over.
   [[nodiscard]] std::shared_ptr<const LasNotes> las_notes(const PointRecords& stored) const;
   void turn_normals(const Scan& scan, PointRecords& rows) const;
 
@@ -72,12 +71,12 @@ class MapRows {
   bool is_widened_ = false;
 };
 
-/// `layout` with a field behind it. It is called `name`, or `raymoval_<name>` if there is a field
-/// of that name, which stays as it is.
+/// `layout` with a field added at its end. The field's name is `name`, or `raymoval_<name>` if
+/// `layout` already has a field `name`.
 /// @param type,size as those of RecordLayout::add
 RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size);
 
-/// Rows of such a layout: `rows`, each with the bytes of `value_of(row)` behind it.
+/// Rows of such a layout: `rows`, each followed by the bytes of `value_of(row)`.
 /// @param layout of `layout_with_field`, whose size is that of a value
 template <class ValueOf>
 ScanRows rows_with_field(const ScanRows& rows, const RecordLayout& layout, ValueOf value_of) {
@@ -93,9 +92,9 @@ ScanRows rows_with_field(const ScanRows& rows, const RecordLayout& layout, Value
   return result;
 }
 
-/// `layout` with a float32 field behind it: how sure the method is that a point moves, from 0 to 1.
-/// It is called `confidence`, or `raymoval_confidence` if there is a field of that name, which
-/// stays as it is.
+/// `layout` with a float32 field added at its end: the method's confidence that a point moves, from
+/// 0 to 1. The field's name is `confidence`, or `raymoval_confidence` if `layout` already has a
+/// field `confidence`.
 RecordLayout layout_with_confidence(const RecordLayout& layout);
 
 /// Rows of that layout: `rows`, and the confidence of each.

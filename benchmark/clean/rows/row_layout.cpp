@@ -15,7 +15,7 @@ bool is_position(const PointField& field) {
          kAxes.find(field.name) != std::string_view::npos;
 }
 
-/// The bytes of x, y or z in a map in which points do not stand as they are stored.
+/// The bytes of x, y or z in a map whose points are not the stored ones.
 int coordinate_size(const PointField& stored, Coordinates coordinates) {
   if (coordinates == Coordinates::kDouble) return 8;
   return stored.type == 'F' ? stored.size : 4;

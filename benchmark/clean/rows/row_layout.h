@@ -14,30 +14,31 @@
 namespace raymoval {
 
 /// The layout of the rows of a map that is made of records of `stored`: the same fields in the same
-/// order. In the sensor frame x, y and z become float64 for `Coordinates::kDouble`, and float32
-/// where they are whole numbers; else the fields keep their types, and the rows their padding.
+/// order. If points are stored in the sensor frame, x, y and z become float64 for
+/// `Coordinates::kDouble`, and whole numbers become float32. All other fields keep their types, and
+/// rows keep their padding.
 /// @throws DataError if x, y or z is missing
 RecordLayout map_layout(const RecordLayout& stored, PointFrame frame, Coordinates coordinates,
                         const std::string& where);
 
-/// The layout of a map of points that have no records: x y z intensity.
+/// The layout of a map of points without records: x y z intensity.
 RecordLayout plain_layout(Coordinates coordinates);
 
-/// What tells the fields of `layout` from those of `expected`, without regard of their order and
-/// place: "has no field ring", "has the field rgb as well". Empty if they are the same.
+/// The difference between the fields of `layout` and `expected`, regardless of order and offset:
+/// "has no field ring", "has the field rgb as well". Empty if there is none.
 std::string field_difference(const RecordLayout& layout, const RecordLayout& expected);
 
-/// Three real numbers that are a direction: the surface normal of a point.
+/// Three real numbers: the surface normal of a point.
 using NormalFields = std::array<PointField, 3>;
 /// The normals among the fields: normal_x normal_y normal_z, nx ny nz, or one field `normal` with
 /// three values.
 std::vector<NormalFields> normal_fields(const RecordLayout& layout);
 
-/// The real or whole number that is the strength of the return; null if there is none.
+/// The field with the strength of the return; null if there is none.
 const PointField* intensity_field(const RecordLayout& layout);
 
-/// Copies records of one layout into rows of another that has fields of the same names. A field
-/// whose type differs is left for the caller to fill.
+/// Copies records of one layout into rows of another that has fields of the same names. The caller
+/// fills fields whose type differs.
 class RowCopy {
  public:
   RowCopy(const RecordLayout& from, const RecordLayout& to);
@@ -46,7 +47,7 @@ class RowCopy {
       std::memcpy(to + piece.to, from + piece.from, piece.bytes);
     }
   }
-  /// Whether rows are the same bytes before and after.
+  /// Whether rows keep their bytes.
   [[nodiscard]] bool is_whole() const { return is_whole_; }
 
  private:

@@ -13,9 +13,9 @@
 
 namespace raymoval {
 
-/// Keeps one row for each occupied cell of space, so that memory is bounded by the map. A cell has
-/// the mean position and the mean strength of return of its points. All other fields are those of
-/// the point that lies nearest to the middle of the cell, the first one of several.
+/// Keeps one row for each occupied cell of space, so that memory is bounded by the map. A row has
+/// the mean position and the mean intensity of the cell's points. All other fields are those of the
+/// point nearest to the centre of the cell, the first of several.
 class VoxelRows {
  public:
   /// @param cell_size in metres
@@ -24,7 +24,7 @@ class VoxelRows {
 
   /// Adds row `point` of a scan.
   void add(const ScanRows& scan, std::size_t point);
-  /// Gives all cells in order along x, then y, then z, some at a time, and forgets them.
+  /// Passes on all cells, ordered by x, then y, then z, in pieces, and releases them.
   void take(const std::function<void(const ScanRows& piece)>& give);
 
  private:
@@ -42,7 +42,7 @@ class VoxelRows {
   RecordLayout layout_;
   PositionFields at_;
   std::optional<PointField> intensity_;
-  bool keeps_rows_;  ///< Whether there is anything besides what has a mean.
+  bool keeps_rows_;  ///< Whether rows have fields other than position and intensity.
   double cell_size_;
   Eigen::Vector3d origin_;
   VoxelMap<Cell> cells_;

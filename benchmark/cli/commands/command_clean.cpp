@@ -39,7 +39,7 @@ struct CleanFlags {
   WorkFlags work;
 };
 
-/// What `--range` keeps of the points of a scan.
+/// Cuts the points of a scan by `--range`.
 struct RangeCut {
   std::optional<RangeLimits> kept;
   std::uint64_t left_out = 0;
@@ -56,7 +56,7 @@ struct RangeCut {
   }
 };
 
-/// What the summary tells besides what the outputs and the method say.
+/// Facts of the summary that neither the outputs nor the method report.
 struct CleaningFacts {
   const CleanPaths& paths;
   RangeCut range;
@@ -85,7 +85,7 @@ ConfiguredMethod configured(const CleanFlags& flags) {
   return method;
 }
 
-/// What the method removes, in files without names beside the first output.
+/// The points that the method removes, in unnamed files beside the first output.
 MethodAnswer find_removals(const CleanFlags& flags, const ConfiguredMethod& method,
                            const Sequence& sequence, const CleanPaths& paths, Progress& progress) {
   const MethodRequest request{method.full_name(), method};
@@ -174,8 +174,8 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   return sequence;
 }
 
-/// The arguments that say how the sequence is read, so that its cleaned scans are read in the same
-/// way. @param own_poses leaves out those that are about poses
+/// The arguments for reading the sequence, so that its cleaned scans are read in the same way.
+/// @param own_poses leaves out arguments on poses
 std::string reading_arguments(bool own_poses) {
   constexpr std::array kReading = {"--sensor", "--up",           "--label-rule",
                                    "--points", "--point-layout", "--point-time-unit",
@@ -196,7 +196,7 @@ std::string reading_arguments(bool own_poses) {
   return text;
 }
 
-/// What was written, a line each.
+/// A line for each written output.
 std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs) {
   std::string text;
   for (const OutputPath& output : paths.all()) {
@@ -208,7 +208,7 @@ std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs
   return text;
 }
 
-/// What was done, a line each.
+/// The lines of the summary.
 std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
                              const Sequence& sequence, const MaskStore& masks,
                              const CleaningFacts& facts, const CleanOutputs& outputs) {
@@ -254,7 +254,7 @@ ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& 
   facts.report = check_data(sequence, flags.path, flags.force,
                             {flags.work.thread_count(), &progress, &interrupt_flag()});
   progress.set_context(method.full_name() + " on " + sequence.name);
-  // A scan that is another when the map is written than when it was judged is an error.
+  // A scan that changes between the method's run and the writing of the map is an error.
   const WatchedSequence data = watched(sequence);
   CleanOutputs outputs(paths, writing, data.sequence, progress, interrupt_flag());
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
@@ -275,7 +275,7 @@ ExitCode clean(const CleanFlags& flags) {
   if (!flags.process.in_process) {
     return clean_apart(ProcessFlags::child_arguments("clean"), paths, limit, interrupt_flag());
   }
-  // As the child of `clean_apart` it takes what it has started with it when that ends.
+  // As the child of `clean_apart`, this process ends with its parent, and its own children with it.
   if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   try {
@@ -286,7 +286,7 @@ ExitCode clean(const CleanFlags& flags) {
   }
 }
 
-/// What is written, and how.
+/// The options for the outputs.
 void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
   options.add("-o,--output,--static", "FILE", flags.output,
               "The cleaned map in the world frame, with all fields of the scans: a file that ends "
@@ -323,7 +323,7 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
               "intensity, with the other fields of the point nearest to the middle of the cell");
 }
 
-/// How the sequence is read and cleaned.
+/// The options for reading and cleaning the sequence.
 void add_clean_work(CommandOptions& options, CleanFlags& flags) {
   options.add("--method", "NAME", flags.method,
               "The method (default: raymoval_plus:offline, which is the best)");

@@ -66,7 +66,7 @@ ComparisonOptions options_of(const CompareFlags& flags) {
   return options;
 }
 
-/// `reference` as the file that is to be written; its folder is made.
+/// The path of the reference file to write; its folder is made.
 std::filesystem::path reference_file(const std::string& reference) {
   const std::filesystem::path given(reference);
   const std::filesystem::path file = given.extension() == ".json" ? given : given / "results.json";
@@ -111,7 +111,7 @@ ExitCode update(const CompareFlags& flags) {
   return ExitCode::kDone;
 }
 
-/// Ends with the exit code of the comparison. What is wrong stands in the output already.
+/// The exit code of the comparison. The output already lists the problems.
 ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) {
   if (comparison.verdict() == ExitCode::kCannotDo) {
     const bool hint = comparison.parameters_only && !options.across_parameters;
@@ -125,7 +125,7 @@ ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) 
   return ExitCode::kDone;
 }
 
-/// What `compare --speed` was given: a file, or the folder of scripts/benchmark.sh.
+/// The file of `compare --speed`, from a file or from the folder of scripts/benchmark.sh.
 std::filesystem::path speed_file(const std::string& given) {
   std::filesystem::path path(given);
   if (is_folder(path)) path /= "speed.json";
@@ -137,7 +137,7 @@ std::filesystem::path speed_file(const std::string& given) {
   return path;
 }
 
-/// Whole cells' times of two machines or versions.
+/// Compares the times of whole cells of two machines or versions.
 ExitCode compare_speeds(const CompareFlags& flags) {
   if (flags.update || flags.with_times || !flags.tolerances.empty() || !flags.across.empty() ||
       !flags.output.path.empty() || flags.format != "text") {
@@ -166,7 +166,7 @@ ExitCode compare(const CompareFlags& flags) {
   if (flags.speed) return compare_speeds(flags);
   if (flags.update) return update(flags);
   const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
-  (void)comparison_in(flags.format, {}, subject);  // A wrong format shows before the work.
+  (void)comparison_in(flags.format, {}, subject);  // A wrong format is reported before the work.
   flags.output.check();
   const std::filesystem::path run = find_results(flags.run);
   const std::filesystem::path reference = find_results(flags.reference);

@@ -43,7 +43,7 @@ static void describe(RecordWriter& writer, const ParameterSpec& spec) {
 
 namespace {
 
-/// What `raymoval describe` says, independent of how it is written.
+/// The content of `raymoval describe`, independent of its format.
 struct Description {
   std::string name;
   std::string sentence;
@@ -52,16 +52,16 @@ struct Description {
   std::vector<std::string> notes;
   std::vector<MethodVariant> variants;
   std::vector<ParameterSpec> parameters;  ///< Defaults are those of the variant described.
-  /// Whether each of them can change anything while the others have their defaults; all of them may
-  /// where no single variant is described.
+  /// Whether each parameter has an effect while the others have their defaults; all true if no
+  /// single variant is described.
   std::vector<bool> acts = {};
-  /// What a method's confidence is made of; empty: it has none. No value of a protocol.
+  /// What a method's confidence is made of; empty if it has none. No value for a protocol.
   std::optional<std::string> confidence = std::nullopt;
   std::vector<std::string> main_parameters = {};  ///< Empty: all.
   std::string advice = {};
 };
 
-/// How the source of a value is called that its author chose.
+/// The source of a default; "own choice" if the parameter has none.
 std::string source_text(const ParameterSpec& spec) {
   return spec.notes.source.empty() ? "own choice" : spec.notes.source;
 }
@@ -78,7 +78,7 @@ std::string range_text(const ParameterSpec& spec) {
   return high ? "to " + plain_number_text(spec.notes.maximum) : "";
 }
 
-/// What a parameter does, and when.
+/// The effect of a parameter, and its condition.
 std::string sentence_of(const Description& description, std::size_t i) {
   const ParameterSpec& spec = description.parameters[i];
   if (spec.notes.acts_when.empty()) return spec.notes.sentence;
@@ -112,7 +112,7 @@ std::string overrides_text(const MethodVariant& variant) {
   return parts.empty() ? "" : " (" + join(parts) + ")";
 }
 
-/// Places of the parameters that are shown: the main ones first, then the others if `all`.
+/// Indices of the shown parameters: the main ones first, then the others if `all`.
 std::vector<std::size_t> shown_parameters(const Description& description, bool all) {
   const std::vector<std::string>& first = description.main_parameters;
   std::vector<std::size_t> shown;
@@ -151,14 +151,14 @@ std::string parameter_lines(const Description& description, bool all) {
   return text;
 }
 
-/// What a method says of how sure it is, as a line; empty for a protocol.
+/// The line on a method's confidence; empty for a protocol.
 std::string confidence_line(const Description& description) {
   if (!description.confidence) return "";
   return "Confidence: " + (description.confidence->empty() ? "none." : *description.confidence) +
          "\n";
 }
 
-/// A method; with a variant ("raymoval:online") its values stand as defaults.
+/// Describes a method; with a variant ("raymoval:online") the defaults are the variant's values.
 Description describe_method(const MethodRegistry& registry, const std::string& name_and_variant) {
   const ConfiguredMethod method = registry.configure(name_and_variant);
   const MethodEntry& entry = *method.entry;
@@ -233,7 +233,7 @@ std::string description_markdown(const Description& description) {
   if (!description.parameters.empty()) {
     std::string table = to_markdown(parameter_table(description));
     table.erase(0, table.find('|'));
-    // Most columns are words, which begin on the left, and not numbers.
+    // Most columns are words, which are aligned to the left.
     const auto line = table.begin() + static_cast<std::ptrdiff_t>(table.find('\n')) + 1;
     std::replace(line, std::find(line, table.end(), '\n'), ':', '-');
     text += "\n" + table;

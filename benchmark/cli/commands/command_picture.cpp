@@ -33,7 +33,7 @@ bool is_chart(const std::string& kind) {
   return kind == "pr-rr" || kind == "stages" || kind == "accuracy-time" || kind == "sweep";
 }
 
-/// @throws UsageError for an option that says nothing about the kind of picture
+/// @throws UsageError for an option that has no effect on the kind of picture
 void check_options(const PictureFlags& flags) {
   const struct {
     const char* option;
@@ -90,7 +90,7 @@ WorldWindow parse_crop(const std::string& text) {
   return {values[0], values[1], values[2], values[3]};
 }
 
-/// What was given, or the only name there is. @throws UsageError if there are several
+/// The name that was given, or the only name that exists. @throws UsageError if there are several
 std::string chosen(const std::string& given, const char* option,
                    const std::vector<std::string>& names) {
   if (!given.empty()) return given;
@@ -123,13 +123,13 @@ Canvas drawn(const PictureFlags& flags, Progress& progress) {
   return overview_picture(run, chosen_cell(flags, run), overview, context);
 }
 
-/// A chart that says below it how methods differ from their variants.
+/// The chart with notes below it on how methods differ from their variants.
 Chart noted(Chart chart, const RunResults& results) {
   for (const ChangedMethod& changed : results.changed) chart.add_note(changed.note());
   return chart;
 }
 
-/// The chart that was asked for, of a run that has what it shows.
+/// The requested chart. @throws DataError if the run has no data for it
 Chart charted(const PictureFlags& flags) {
   const RunResults results = KeptRun(flags.run, "").results();
   if (flags.kind == "stages") {

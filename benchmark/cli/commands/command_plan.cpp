@@ -15,7 +15,7 @@ struct PlanFlags {
   bool quiet = false;
 };
 
-/// A line of JSON. @param looked whether the run folder was looked at
+/// A line of JSON. @param looked whether the run folder was read
 std::string planned_line(const PlannedCell& cell, bool looked) {
   RecordWriter writer;
   writer.field("cell", cell.cell.sequence + "/" + cell.cell.name);

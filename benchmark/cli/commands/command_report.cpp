@@ -24,7 +24,7 @@ struct ReportFlags {
 };
 
 /// Whether the page gets a 3-D view.
-/// @throws UsageError if an option is about the 3-D view and the page gets none
+/// @throws UsageError if an option of the 3-D view is given and the page has none
 bool with_points(const ReportFlags& flags) {
   const bool built_in = !page_file("view.js").empty();
   const std::string given = !flags.data.empty()     ? "--data " + flags.data
@@ -85,7 +85,7 @@ ExitCode report(const ReportFlags& flags) {
     request.reference = flags.against;
   }
   request.methods = &program_methods();
-  request.points_needed = !flags.data.empty() || flags.simulate;  // Who says where it is means it.
+  request.points_needed = !flags.data.empty() || flags.simulate;  // The user asks for them.
   request.threads = threads;
   request.progress = &progress;
   request.cancel = &interrupt_flag();

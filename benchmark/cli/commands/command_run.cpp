@@ -20,7 +20,7 @@ namespace {
 struct RunFlags {
   SuiteFlags what;
   std::string out, shard, cell, jobs;
-  RunOptions options;  ///< Where an option of the command is one of these.
+  RunOptions options;  ///< Options that are stored as they are.
   bool explain = false, in_process = false, quiet = false;
 };
 
@@ -43,12 +43,12 @@ void tell_problems(const RunSummary& summary, bool collect) {
   }
 }
 
-/// How many cells run at once; 1 if the user does not say it.
+/// How many cells run at once; 1 by default.
 int parse_jobs(const std::string& text) {
   return text.empty() ? 1 : parse_whole("--jobs", text, 1, 1024);
 }
 
-/// What a user may not ask for at once.
+/// @throws UsageError if --out is missing, or for options that exclude each other
 void check_flags(const RunFlags& flags) {
   if (flags.out.empty()) {
     throw UsageError("--out DIR is missing: name the folder that is to hold the results.");
@@ -90,7 +90,7 @@ ExitCode explain(const Suite& suite, const RunOptions& options) {
   return ExitCode::kDone;
 }
 
-/// Runs what is asked for; on a cancel nothing.
+/// Runs the suite or one cell; nothing if it was cancelled.
 std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
                                     const RunOptions& options) {
   try {
@@ -107,7 +107,7 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
   }
 }
 
-/// What stands in the run folder, in one screen.
+/// A summary of the run folder, in one screen.
 std::string end_of_run(const std::string& out) {
   const std::filesystem::path file = std::filesystem::path(out) / "results.json";
   return run_summary(shown_results(read_results(file)), out);
@@ -140,7 +140,7 @@ ExitCode run(const RunFlags& flags) {
   return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
 }
 
-/// What a run does with its cells, and which ones it runs.
+/// The options for choosing and keeping cells.
 void add_cell_options(CommandOptions& options, RunFlags& flags) {
   options.group("Cell options");
   options.add(

@@ -28,24 +28,24 @@ namespace raymoval {
 /// A cleaned map that was scored.
 struct CloudRecord {
   std::size_t points = 0;       ///< Number of points in the file.
-  std::size_t non_finite = 0;   ///< Those that were left out, see `CleanedCloud`.
-  double oracle_voxel_m = 0.0;  ///< Voxel to which the oracle's cloud was thinned; 0 if it was not.
+  std::size_t non_finite = 0;   ///< Points that were left out, see `CleanedCloud`.
+  double oracle_voxel_m = 0.0;  ///< Voxels that thin the oracle's cloud; 0: not thinned.
   std::vector<std::string> warnings;
 };
 
-/// What one protocol says.
+/// The result of one protocol.
 struct ScoredProtocol {
   ProtocolRecord protocol;
   ProtocolResult result;
-  /// What the oracle's cloud scores. No value where label files were scored.
+  /// The result of the oracle's cloud. No value if label files were scored.
   std::optional<ProtocolResult> oracle = std::nullopt;
 };
 
-/// What `raymoval score` tells.
+/// The content of `raymoval score`.
 struct ScoreRecord {
   DataRecord data;
   std::optional<PoseFitRecord> pose_fit;
-  std::optional<CloudRecord> cloud;  ///< No value where label files were scored.
+  std::optional<CloudRecord> cloud;  ///< No value if label files were scored.
   std::vector<ScoredProtocol> protocols;
   ColumnRecord columns;
 };
@@ -121,7 +121,7 @@ std::string oracle_text(const ProtocolResult& result) {
   return text + "\n";
 }
 
-/// Why a cloud may be better by some rates than one without a single mistake; empty if it is not.
+/// Why a cloud has better rates than a perfect one; empty if it has not.
 std::string above_oracle_text(const ProtocolResult& result, const ProtocolResult& oracle) {
   std::vector<std::string> above;
   for (const Rate& rate : result.rates) {
@@ -177,7 +177,7 @@ std::vector<ProtocolRecord> protocol_records(const ScoredSequence& scored) {
   return records;
 }
 
-/// Masks of another kind, such as those of 0 and 1, would be taken for an answer that removes
+/// Warns of other labels: masks of 0 and 1, for example, would be read as a result that removes
 /// nothing.
 void warn_of_labels(const LabelIds& found, const std::string& folder) {
   print_warning(folder +
@@ -217,7 +217,7 @@ std::vector<ProtocolResult> score_cloud(ScoredSequence& scored, const CloudEstim
   return results;
 }
 
-/// @param voxel_m to which the cloud was thinned; 0 if it was not
+/// @param voxel_m by which the cloud was thinned; 0: not thinned
 void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m,
                  Progress& progress, ScoreRecord& record) {
   const CleanedCloud cloud = read_cleaned_cloud(file, lattice_origin(*scored.sequence().scans));
@@ -233,7 +233,7 @@ void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m
     const std::size_t i = record.protocols.size();
     record.protocols.push_back({protocol, results[i], oracle[i]});
   }
-  // A map does not say from where its points were seen.
+  // A map does not record the sensor position of its points.
   const bool is_map = scored.sequence().layout == kMapLayout;
   record.columns = {kColumnsVersion, {}};
   if (!is_map) record.columns.values = scored.columns(scored.cloud_masks(estimate));
@@ -271,7 +271,7 @@ void check_flags(const ScoreFlags& flags) {
   }
 }
 
-/// The protocols asked for. A cloud stands where the poses put it and has no labels.
+/// The requested protocols. A cloud is in the frame of the poses and has no labels.
 std::vector<ProtocolRequest> requested_protocols(const ScoreFlags& flags) {
   Suite suite;
   for (const std::string& protocol : flags.protocols) add_protocol(suite, protocol, "");

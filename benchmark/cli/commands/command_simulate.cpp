@@ -32,13 +32,13 @@ SimulationOptions options_of(const SimulateFlags& flags) {
     }
     options.pose_noise = 0.0;
   }
-  // Unknown names show before anything is made.
+  // Unknown names are reported before anything is made.
   (void)simulated::find_world(options.scene);
   if (!options.sensor.empty()) (void)simulated::find_sensor(options.sensor);
   return options;
 }
 
-/// How much of the written sequence moves, from its own files.
+/// The share of moving points, read from the written files.
 std::string content_text(const std::string& folder) {
   const Sequence sequence = open_semantickitti(folder, {});
   std::uint64_t points = 0;

@@ -58,7 +58,7 @@ void check_flags(const TableFlags& flags) {
   }
 }
 
-/// The papers' rows. Says of which sequences none may stand beside the run's.
+/// The papers' rows. Prints the sequences for which no row is comparable with the run's.
 /// @throws UsageError if there is no other sequence
 std::vector<OutsideColumn> papers_beside(const RunResults& results) {
   std::vector<OutsideColumn> papers = published_columns();

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the manual page of what `raymoval help` prints.
+# Makes the manual page from the output of `raymoval help`.
 #
 #   manual_page.sh PATH/TO/raymoval >raymoval.1
 set -euo pipefail

@@ -54,7 +54,7 @@ std::string font_file() {
 }
 
 cairo_font_face_t* load_font(const std::string& file) {
-  // Both stay until the program ends: cairo reads letters from them whenever it needs one.
+  // Both live until the program ends, because cairo reads letters from them at any time.
   static FT_Library library = nullptr;
   FT_Face face = nullptr;
   if ((library == nullptr && FT_Init_FreeType(&library) != 0) ||
@@ -65,9 +65,9 @@ cairo_font_face_t* load_font(const std::string& file) {
   return cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_TARGET_LIGHT);
 }
 
-/// Makes `context` write in DejaVu Sans, from the file that $RAYMOVAL_FONT names or from where
-/// systems keep it. The file is read once in a process. fontconfig is not asked: the same file
-/// gives the same picture whatever else is installed.
+/// Makes `context` write in DejaVu Sans, from the file of $RAYMOVAL_FONT or from the usual font
+/// folders. The file is read once per process. fontconfig is not used, so that the same file gives
+/// the same picture on every system.
 void choose_font(cairo_t* context, int size) {
   static cairo_font_face_t* const regular = load_font(font_file());
   const std::unique_ptr<cairo_font_options_t, void (*)(cairo_font_options_t*)> options(
@@ -153,7 +153,7 @@ void Canvas::hatch(int x, int y, int wide, int high) {
 
 int Canvas::text_width(const std::string& text, int size) const {
   choose_font(context(), size);
-  cairo_text_extents_t extents{};  // Is left alone if there is no memory.
+  cairo_text_extents_t extents{};  // Unchanged if memory runs out.
   cairo_text_extents(context(), printable_text(text).c_str(), &extents);
   return static_cast<int>(std::ceil(extents.x_advance));
 }

@@ -22,8 +22,8 @@ struct CairoRelease {
 
 enum class Align { kLeft, kCentre, kRight };
 
-/// A picture in memory, drawn by cairo. Pixels count from the upper left corner; what lies outside
-/// the picture is left out. Texts are UTF-8, in the letters of DejaVu Sans.
+/// A picture in memory, drawn by cairo. Pixels count from the upper left corner; parts outside the
+/// picture are not drawn. Texts are UTF-8, in DejaVu Sans.
 class Canvas {
  public:
   /// Makes a white picture. @throws UsageError if it would be larger than `kMostPixels`
@@ -40,10 +40,10 @@ class Canvas {
   /// Draws a border just inside the rectangle.
   void frame(int x, int y, int width, int height, const Colour& colour);
   /// Sets each pixel of a rectangle to `colour_at(column, row)`, counted from the rectangle's upper
-  /// left corner. A pixel that gets no colour stays as it is.
+  /// left corner. A pixel without a colour is not changed.
   void draw_pixels(int x, int y, int width, int height,
                    const std::function<std::optional<Colour>(int, int)>& colour_at);
-  /// Draws diagonal stripes: a place where there is nothing to show.
+  /// Draws diagonal stripes, which mark a panel without content.
   void hatch(int x, int y, int width, int height);
   /// @param y of the baseline
   /// @param size of the letters in pixels
@@ -53,7 +53,7 @@ class Canvas {
 
   /// The width of a text in pixels.
   [[nodiscard]] int text_width(const std::string& text, int size) const;
-  /// `text`, or as much of its beginning as fits into `width` with "..." behind it.
+  /// `text`, or the longest beginning of it that fits into `width` with "..." at its end.
   [[nodiscard]] std::string fitted(const std::string& text, int size, int width) const;
 
   /// The picture as a PNG file's content. The same pixels give the same bytes.

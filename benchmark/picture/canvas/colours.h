@@ -21,9 +21,8 @@ Colour blended(const Colour& from, const Colour& to, double share);
 /// "#009E73".
 std::string colour_text(const Colour& colour);
 
-/// The colours that say what became of a point of a map. Every picture uses them. They come from
-/// the palette of Okabe and Ito, which colour-blind readers can tell apart; grey is for static
-/// points that are kept.
+/// The colours of the verdicts on points, in every picture. They are from the palette of Okabe and
+/// Ito, which colour-blind readers can distinguish. Kept static points are grey.
 namespace verdict_colours {
 inline constexpr Colour kTruePositive{0, 158, 115};   ///< Moving and removed: bluish green.
 inline constexpr Colour kFalsePositive{0, 114, 178};  ///< Static and removed: blue.
@@ -31,8 +30,8 @@ inline constexpr Colour kFalseNegative{213, 94, 0};   ///< Moving and kept: verm
 inline constexpr Colour kKeptStatic{176, 176, 176};   ///< Static and kept: grey.
 }  // namespace verdict_colours
 
-/// The palette of Okabe and Ito without black, which is lost on dark ground, and yellow, which is
-/// lost on light ground.
+/// The palette of Okabe and Ito without black and yellow, which are hard to see on a dark and on a
+/// light background.
 inline constexpr std::array<Colour, 6> kSeriesColours = {
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 

@@ -10,8 +10,8 @@
 
 namespace raymoval {
 
-/// How a series of points looks. Both colour and shape differ from one series to the next, so that
-/// readers need not see both.
+/// The look of a series of points. Series differ in both colour and shape, so that one of them is
+/// enough to distinguish them.
 struct SeriesLook {
   Colour colour;
   int shape = 0;  ///< 0 .. 4: circle, square, diamond, triangle up, triangle down.

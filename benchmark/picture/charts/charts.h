@@ -12,9 +12,9 @@ namespace raymoval {
 // a <desc> for assistive programs; each marker or bar has a <title> with its values. The same
 // results give the same bytes. Controls are left out.
 
-/// Shows what is kept (upwards) against what is removed (to the right). Each sequence has a panel.
-/// There are lines of equal headline rate if that is the harmonic mean of both, and a line joins
-/// the points of a sweep. The chart is empty if no cell has both rates.
+/// Shows the rate of kept points (upwards) against the rate of removed points (to the right). Each
+/// sequence has a panel. Lines of equal headline rate are drawn if it is the harmonic mean of both.
+/// A line joins the points of a sweep. The chart is empty if no cell has both rates.
 /// @param protocol its name in the run
 Chart pr_rr_chart(const RunResults& results, const std::string& protocol);
 
@@ -22,21 +22,21 @@ Chart pr_rr_chart(const RunResults& results, const std::string& protocol);
 /// if there are no times.
 Chart stage_chart(const RunResults& results);
 
-/// Shows which share of the points moves (upwards) against the mean confidence of the methods in
-/// them (to the right), a marker for each bin with points, a line for each method with
-/// confidences. A dotted diagonal marks confidences that equal the share. The chart is empty if no
-/// method has confidences.
+/// Shows the share of moving points (upwards) against the mean confidence (to the right): a marker
+/// for each bin with points, a line for each method with confidences. A dotted diagonal marks
+/// confidences that equal the share. The chart is empty if no method has confidences.
 Chart reliability_chart(const RunResults& results);
 
-/// Shows, for each sweep over one parameter that is a number, the rates over that parameter: a plot
-/// for what is kept, what is removed and the headline rate, a line for each sequence, and one for
-/// the mean of several. The chart is empty if there is no such sweep with a result.
+/// Shows, for each sweep over one parameter that is a number, the rates over that parameter: plots
+/// of the rate of kept points, the rate of removed points and the headline rate, with a line for
+/// each sequence and one for the mean of several sequences. The chart is empty if there is no such
+/// sweep with a result.
 /// @param protocol its name in the run
 Chart sweep_chart(const RunResults& results, const std::string& protocol);
 
 /// Shows the mean of the headline rate over the sequences against milliseconds per scan
-/// (logarithmic). A line joins the methods that no other one beats in both. The chart is empty if
-/// no method has both.
+/// (logarithmic). A line joins the methods that no other method beats in both. The chart is empty
+/// if no method has both.
 /// @param protocol its name in the run
 Chart accuracy_time_chart(const RunResults& results, const std::string& protocol);
 

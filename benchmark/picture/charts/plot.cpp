@@ -27,13 +27,13 @@ struct Box {
   }
 };
 
-/// Where a text may stand beside its point, the best place first: from the point to its left or
-/// right end (0: its middle), and to its base line.
+/// Positions of a label beside its point, the best first: from the point to the label's left or
+/// right end (0: its middle), and to its baseline.
 constexpr std::pair<double, double> kLabelPlaces[] = {
     {8.0, 3.0},  {-8.0, 3.0},  {0.0, -9.0}, {0.0, 17.0},  {7.0, 14.0},  {-7.0, 14.0},
     {7.0, -8.0}, {-7.0, -8.0}, {8.0, 27.0}, {-8.0, 27.0}, {8.0, -20.0}, {-8.0, -20.0}};
 
-/// The place beside `at` that covers least of what is taken.
+/// The position beside `at` that covers the least area of `taken`.
 Box label_box(const ChartPoint& at, double width, const std::vector<Box>& taken) {
   Box best{};
   double least = 1e18;
@@ -163,7 +163,7 @@ void Plot::add_label(const ChartPoint& at, const std::string& series, const std:
 }
 
 void Plot::draw_labels() const {
-  // What is far outside counts as taken.
+  // The area far outside counts as taken.
   constexpr double kFar = 1e5;
   std::vector<Box> taken = {{-kFar, -kFar, corner_.x - 30.0, kFar},
                             {corner_.x + size_.x + 30.0, -kFar, kFar, kFar},

@@ -12,7 +12,7 @@
 
 namespace raymoval {
 
-/// What is drawn alike in a chart: a method, or all points of a sweep.
+/// A series with one look in a chart: a method, or all points of a sweep.
 struct ChartSeries {
   std::string name;
   SeriesLook look;
@@ -29,7 +29,8 @@ struct ChartRates {
   ChartRates(const RunResults& results, const std::string& protocol);
 };
 
-/// What a point of a sweep was set to: "0.2", or "0.2, true" of two parameters; empty for others.
+/// The values of a point of a sweep: "0.2", or "0.2, true" for two parameters; empty for other
+/// cells.
 std::string sweep_label(const RunResults& results, const std::string& cell);
 
 /// An axis from `low` to `high` with marks every `step`.
@@ -38,9 +39,9 @@ struct Axis {
   bool reversed = false;     ///< Whether it is drawn from `high` to `low`.
   bool logarithmic = false;  ///< Whether `low`, `high` and `step` are decimal logarithms.
 
-  /// Where a value lies on an axis that is drawn over `length` pixels.
+  /// The position of a value on an axis of `length` pixels.
   [[nodiscard]] double at(double value, double length) const;
-  /// The values that are marked.
+  /// The marked values.
   [[nodiscard]] std::vector<double> marks() const;
 };
 
@@ -55,8 +56,8 @@ std::string axis_title(const RateSpec& rate);
 /// A point of a plot, in units of its axes.
 struct PlotPoint {
   double x = 0.0, y = 0.0;
-  std::string hint;        ///< Is shown when a pointer rests on the marker.
-  std::string label = {};  ///< Stands beside the marker.
+  std::string hint;        ///< Shown when a pointer rests on the marker.
+  std::string label = {};  ///< Text beside the marker.
 };
 
 /// A rectangle with two axes, in which series of points are drawn.
@@ -68,11 +69,11 @@ class Plot {
   Plot(Chart& chart, const ChartPoint& corner, const ChartPoint& size, const Axis& across,
        const Axis& up, const std::string& across_title, const std::string& up_title);
 
-  /// Where a point lies in the chart.
+  /// The position of a point in the chart.
   [[nodiscard]] ChartPoint at(double x, double y) const;
   void draw_series(const ChartSeries& series, const std::vector<PlotPoint>& points, bool joined);
-  /// Writes the labels of all points where they cover neither points nor each other if there is
-  /// room. Points of one series in nearly one place share a label: "0.1, 0.2".
+  /// Writes the labels of all points. If there is room, they cover neither points nor each other.
+  /// Points of one series in nearly one place share a label: "0.1, 0.2".
   void draw_labels() const;
 
  private:

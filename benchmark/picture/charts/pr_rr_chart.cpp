@@ -14,7 +14,7 @@ constexpr double kPanelRowPitch = 322.0;
 constexpr double kPanelLeft = 56.0;
 constexpr double kPanelTop = 70.0;
 
-/// What all panels have in common.
+/// The common parts of all panels.
 struct Panels {
   ChartRates rates;
   Axis across, up;

@@ -46,7 +46,8 @@ std::string ms_text(double ms) {
   return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
 }
 
-/// Colours run anew along each bar, since methods have stages of their own; none comes twice.
+/// Each bar starts with the first colour, because each method has its own stages; no colour occurs
+/// twice in a bar.
 Colour stage_colour(const Bar& bar, std::size_t stage) {
   if (bar.stages[stage].name == "other") return kOther;
   return distinct_colours(bar.stages.size())[stage];

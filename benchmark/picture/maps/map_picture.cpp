@@ -34,7 +34,7 @@ struct MapRow {
   double resolution = 1.0;
   int width = 0, height = 0;  ///< Of a panel.
   bool has_points = false;    ///< Whether one of its points lies within the panels.
-  std::optional<WorldWindow> around = std::nullopt;  ///< Of the way of the sensor, if it was read.
+  std::optional<WorldWindow> around = std::nullopt;  ///< Around the sensor's path, if it was read.
 };
 
 /// The cells that the picture shows.

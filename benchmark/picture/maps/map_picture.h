@@ -11,7 +11,7 @@
 
 namespace raymoval {
 
-/// Which cells a picture shows, and how large.
+/// The cells and the scale of a picture.
 struct MapPictureOptions {
   std::vector<std::string> only;    ///< Patterns of cells. If empty, all but the controls.
   std::optional<WorldWindow> crop;  ///< If empty, 30 m around the sensor's path.
@@ -20,18 +20,19 @@ struct MapPictureOptions {
 };
 
 /// Draws maps seen from above: a row for each sequence and a column for each method, in the colours
-/// of `outcome_colour`. If a cell has no result or no kept removals, its panel is hatched and says
-/// why.
+/// of `outcome_colour`. If a cell has no result or no kept removals, its panel is hatched and shows
+/// the reason.
 /// @throws UsageError if a pattern matches no cell, if no chosen cell has kept removals, or if no
 ///   point lies within the crop; DataError if data or removals have changed since the run;
 ///   Cancelled
 Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
                    const OpenContext& context);
 
-/// What the sensor has seen well: its path and 30 m around it.
+/// The area that the sensor has seen well: 30 m around its path.
 WorldWindow window_around_way(const ScanSource& scans);
 
-/// Refuses a crop without a point. @param around the way of the sensor, to choose another
+/// Refuses a crop without a point. @param around the window around the sensor's path, for the
+/// message
 [[noreturn]] void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around);
 
 struct OverviewOptions {
@@ -39,10 +40,10 @@ struct OverviewOptions {
   int panel_pixels = 860;           ///< The width of each of the two maps.
 };
 
-/// Shows in one picture, seen obliquely from above, what removal does: the map of all scans with
-/// the trails of what moved, the map that a method left, and, at a larger scale, the place where it
-/// removed most. Points more than 4 m above the sensor are left out, so that trees do not hide the
-/// street.
+/// Shows the effect of a method in one picture, seen obliquely from above: the map of all scans
+/// with the trails of moving objects, the cleaned map, and, at a larger scale, the place where the
+/// method removed most moving points. Points more than 4 m above the sensor are left out, so that
+/// trees do not hide the street.
 /// @throws UsageError if no point lies within the crop; DataError if removals or data are missing
 /// or have changed since the run; Cancelled
 Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,

@@ -58,7 +58,7 @@ struct ObliqueCamera {
   }
 };
 
-/// Draws points so that near ones hide far ones. Of equally near ones the first stays.
+/// Draws points so that near ones hide far ones. Of equally near points the first is kept.
 class ObliqueRaster {
  public:
   explicit ObliqueRaster(const ObliqueCamera& camera)
@@ -119,8 +119,8 @@ void for_each_point(const Sequence& sequence, const ScanSource& scans,
                        });
 }
 
-/// The turn that makes the sensor's path run from left to right. If the sensor stands still, the
-/// world's x axis does.
+/// The rotation that makes the sensor's path run from left to right. Without a path, the world's x
+/// axis runs from left to right.
 double yaw_of_way(const ScanSource& scans) {
   const Eigen::Vector3d from = scans.pose(0).translation();
   Eigen::Vector3d farthest = from;
@@ -150,7 +150,7 @@ ObliqueCamera camera_of(const ScanSource& scans, const OverviewOptions& options)
     window.y_max += std::max(0.0, lacking) / 2.0;
   }
   camera.resolution = camera.window.width() / options.panel_pixels;
-  // Two maps stand above each other.
+  // The two maps are one above the other.
   const double too_high = 2.0 * camera.height() / options.panel_pixels;
   if (too_high > 1.0) camera.resolution *= too_high;
   return camera;
@@ -197,7 +197,7 @@ WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans,
   return {x_min, x_max, y_min, y_max};
 }
 
-/// The ground is light, and what stands on it is dark.
+/// Points on the ground are light, points above it dark.
 Colour static_colour(double above_sensor) {
   return blended({206, 208, 212}, {92, 98, 112}, (above_sensor + 1.6) / 4.5);
 }
@@ -287,7 +287,8 @@ Canvas drawn(const KeptCell& cell, std::size_t scans, const Views& views,
 
 Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,
                         const OpenContext& context) {
-  if (!cell.has_removals()) (void)run.masks(cell, {});  // Says why before anything is read.
+  if (!cell.has_removals())
+    (void)run.masks(cell, {});  // Throws the reason before anything is read.
   const Sequence sequence = run.open(cell.sequence, context);
   const std::vector<MaskStore> masks = {run.masks(cell, sequence)};
   const LocalFrameSource scans(*sequence.scans, sequence.upright_frame());

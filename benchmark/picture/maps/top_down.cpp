@@ -23,11 +23,11 @@ constexpr std::array<OutcomeLook, kOutcomes> kLooks = {
      {verdict_colours::kFalsePositive, "static, removed"},
      {verdict_colours::kFalseNegative, "moving, kept"}}};
 
-/// A moving object always stands on many static points, so it takes this many of them to outweigh
-/// one moving point.
+/// A moving object is always above many static points, so one moving point counts as much as this
+/// many static points.
 constexpr std::uint64_t kMovingWeight = 10;
 
-/// Few points are light grey, and a wall is dark.
+/// Pixels with few points are light grey, pixels of walls are dark.
 Colour static_grey(std::uint32_t points) {
   const double share = std::min(1.0, std::log2(1.0 + points) / 8.0);
   const auto level = static_cast<std::uint8_t>(std::lround(226.0 - 110.0 * share));

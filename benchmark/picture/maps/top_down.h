@@ -15,7 +15,7 @@
 
 namespace raymoval {
 
-/// What became of a point.
+/// The verdict on a point.
 enum class Outcome : std::uint8_t {
   kKeptStatic,
   kTruePositive,   ///< Moving and removed.
@@ -36,7 +36,7 @@ constexpr Outcome outcome_of(bool moving, bool removed) {
   return removed ? Outcome::kFalsePositive : Outcome::kKeptStatic;
 }
 
-/// A point that is shown, and what became of it.
+/// A shown point with its verdict.
 struct PointOutcome {
   Eigen::Vector3d world;  ///< In the frame of the scans, metres.
   double above_sensor;    ///< Height above the sensor, metres.
@@ -49,8 +49,8 @@ using VisitPoint = std::function<void(std::size_t mask, const PointOutcome& poin
 /// range, their label is not ignored, and they are not on the ego vehicle (within 2.7 m of the
 /// sensor's axis).
 /// @param scans of the sequence, in a frame whose z axis points up
-/// @param masks what each method removed
-/// @param task what the progress says
+/// @param masks the masks of the methods
+/// @param task the text of the progress
 /// @throws Cancelled
 void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
                           const std::vector<MaskStore>& masks, const std::string& task,
@@ -67,7 +67,7 @@ struct WorldWindow {
   }
 };
 
-/// All within `around` metres of the places along both axes; of the origin if there are none.
+/// The window with `around` metres on each side of the places; around the origin if there are none.
 WorldWindow window_around(const std::vector<Eigen::Vector3d>& places, double around);
 
 /// Points seen from above. It counts for each pixel how many points of each outcome lie in it.
@@ -80,8 +80,8 @@ class TopDownRaster {
   [[nodiscard]] int height() const { return height_; }
   void add(const Eigen::Vector3d& world, Outcome outcome);
 
-  /// What a pixel shows. If at least one point moves for every ten static ones, it is the outcome
-  /// of most of the moving points, else that of most of the static ones. An error wins a tie.
+  /// The outcome of a pixel: if at least one point moves for every ten static points, that of most
+  /// moving points, else that of most static points. In a tie the error is shown.
   /// @return false if the pixel has no point
   [[nodiscard]] bool shown(int x, int y, Outcome& outcome) const;
   /// Draws the colours of `shown`. Kept static points are grey: the more of them, the darker.

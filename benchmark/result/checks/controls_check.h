@@ -8,10 +8,9 @@
 
 namespace raymoval {
 
-/// Compares the rates of the controls with what their protocols say that they must be. A rate that
-/// is undefined is not checked.
-/// @return a sentence for each rate that is off and each control that did not finish; empty if all
-/// is well
+/// Compares the rates of the controls with the expected values of their protocols. Undefined rates
+/// are not checked.
+/// @return a sentence for each unexpected rate and for each control that did not finish
 std::vector<std::string> check_controls(const std::vector<Cell>& cells);
 
 }  // namespace raymoval

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The first part of `wanted` that `stored` has otherwise. @param what stands before its name
+/// The first part of `wanted` that differs in `stored`. @param what precedes its name
 std::string first_change(const std::string& what, const ordered_json& stored,
                          const ordered_json& wanted) {
   for (const auto& [key, value] : wanted.items()) {
@@ -28,7 +28,7 @@ std::string first_change(const std::string& what, const ordered_json& stored,
   return "";
 }
 
-/// The same; a part that only `stored` has counts too.
+/// Like first_change, but a part that only `stored` has is a difference too.
 std::string record_difference(const std::string& what, const ordered_json& stored,
                               const ordered_json& wanted) {
   const std::string change = first_change(what, stored, wanted);
@@ -46,7 +46,7 @@ void add_facts(const std::string& prefix, const Configuration& configuration, Fa
 }  // namespace
 
 std::string identity_difference(const Cell& stored, const CellIdentity& wanted) {
-  // What a reader knows comes before hashes.
+  // Differences that a reader understands come before hashes.
   std::string found = record_difference("parameter", to_json(stored.method.parameters),
                                         to_json(wanted.method.parameters));
   if (found.empty()) {
@@ -108,13 +108,13 @@ Facts comparison_facts(const Cell& cell) {
   facts["variant"] = value_text(cell.method.variant);
   if (!cell.data) return facts;  // The data could not be read.
   const ordered_json data = to_json(*cell.data);
-  // Frames, poses and sensor are part of the fingerprint; here they tell why it differs.
+  // Frames, poses and sensor are part of the fingerprint; here they show why it differs.
   for (const char* part :
        {"fingerprint", "scans", "frames", "poses", "sensor", "range_m", "label_rule", "drop_ego",
         "T_sensor", "sensor_origin", "time_offset_s", "deskew"}) {
     if (data.contains(part)) facts[std::string("data ") + part] = data[part].dump();
   }
-  // Results of earlier versions do not say which way is up; they took z.
+  // Results of earlier versions have no up direction; it was z.
   if (!cell.data->up.empty() && cell.data->up != "z") facts["data up"] = cell.data->up;
   return facts;
 }

@@ -9,10 +9,10 @@
 
 namespace raymoval {
 
-// Each of these says in words the first part in which two records differ, "parameter tau0 was 0.2,
-// is 0.4", and gives an empty text if they do not differ.
+// Each function returns the first difference of two records in words, "parameter tau0 was 0.2, is
+// 0.4", or an empty text if there is none.
 
-/// Why a stored cell is not the one that is wanted.
+/// The difference of a stored cell from the wanted cell.
 std::string identity_difference(const Cell& stored, const CellIdentity& wanted);
 
 /// Parameters and version of a cell's method against those of a suite's.
@@ -28,10 +28,10 @@ std::string protocol_difference(const std::vector<ProtocolRecord>& stored,
 /// The protocols that a cell was scored by.
 std::vector<ProtocolRecord> protocols_of(const Cell& cell);
 
-/// What of a cell must be equal for two cells to be comparable: data, method and parameters.
+/// The facts that must be equal in comparable cells: data, method and parameters.
 Facts comparison_facts(const Cell& cell);
 
-/// The same of one of its scores: protocol, version and options.
+/// The facts that must be equal in comparable scores: protocol, version and options.
 Facts comparison_facts(const Score& score);
 
 }  // namespace raymoval

@@ -13,8 +13,8 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-/// Whether all points of a sweep that differ in parameter `k` only removed the same on a sequence;
-/// nothing where there is nothing to compare.
+/// Whether all points of a sweep that differ only in parameter `k` removed the same points of a
+/// sequence; no value if there is nothing to compare.
 std::optional<bool> is_flat(const RunResults& results, const Sweep& sweep, std::size_t k,
                             const std::string& sequence) {
   std::map<Values, std::vector<std::string>> digests;  // By the values of the other parameters.

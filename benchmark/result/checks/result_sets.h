@@ -12,15 +12,15 @@ namespace raymoval {
 /// @throws UsageError if there is none
 std::filesystem::path find_results(const std::string& given);
 
-/// What a comparison sees of a results.json.
+/// The part of a results.json that is compared.
 /// @throws DataError if it is damaged, incomplete or of another schema version
 ResultSet read_result_set(const std::filesystem::path& results);
 
-/// Writes `results` to `reference` without what depends on the machine or the moment: build,
+/// Writes `results` to `reference` without the parts that depend on the machine or the run: build,
 /// machine, times and memory. `with_times` keeps machine, times and memory, so that a comparison
-/// can tell whether a run is slower.
-/// @throws UsageError if the run has failed cells or its controls are off, or if times are asked
-/// for and it has none
+/// can find slower runs.
+/// @throws UsageError if the run has failed cells or unexpected rates of controls, or if it has no
+/// times for `with_times`
 void write_reference(const std::filesystem::path& results, const std::filesystem::path& reference,
                      bool with_times = false);
 

@@ -19,7 +19,7 @@ struct Reasons {
 };
 
 /// Writes `reasons.json` (the sentences) and `<scan name>.reason` (a byte for each point of the
-/// scan, in its order) beside the label files in `folder`; nothing if there are none.
+/// scan, in its order) beside the label files in `folder`. Without reasons it writes nothing.
 void write_reasons(const std::filesystem::path& folder, const ScanSource& scans,
                    const Reasons& reasons);
 

@@ -46,8 +46,8 @@ std::vector<std::uint32_t> label_words(const std::filesystem::path& path, const 
   return words;
 }
 
-/// The words that an array of numbers stands for: whole numbers as they are, shares up to 1 as
-/// removed from 0.5 on.
+/// The label words of an array: whole numbers unchanged; of shares up to 1, 0.5 and more mean
+/// removed.
 std::vector<std::uint32_t> array_words(const std::filesystem::path& path, const Scan& scan) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const RecordReading reading;
@@ -125,7 +125,7 @@ LabelIds ids_of(const std::vector<std::uint16_t>& list) {
   return ids;
 }
 
-/// The labels of an answer.
+/// The labels that mean removed.
 LabelIds removed_labels() {
   LabelIds ids;
   for (std::size_t id = kRemovedLabel; id <= kLastRemovedLabel; ++id) ids.set(id);
@@ -166,7 +166,8 @@ bool is_removals_file(const std::filesystem::path& entry) {
   return name.extension() == ".label" || is_reason_file(name);
 }
 
-/// What has to go before the folder can; a link goes alone.
+/// The entries that must be removed before the folder; none for a link, of which only the link is
+/// removed.
 std::vector<std::filesystem::path> content_of(const std::filesystem::path& folder) {
   if (is_link(folder) || !has_folder(folder)) return {};
   return entries_of(folder);
@@ -195,8 +196,8 @@ void check_folder(const std::filesystem::path& folder) {
   }
 }
 
-/// The ids that mean removed in an answer without SemanticKITTI's labels for it; none if nobody
-/// can tell. @param note gets why
+/// The ids that mean removed in predictions without the labels 251 to 259; none if no rule applies.
+/// @param note is set to the reason
 LabelIds other_removed_ids(const PredictedIds& found, const LabelRule& rule, std::string& note) {
   const LabelIds small = found.ids & ~ids_of({0, 1, 2});
   const LabelIds by_rule = ids_of(rule.moving) & found.ids;

@@ -24,7 +24,7 @@ path repeat_file(const path& folder, int number) {
   return folder / ("timing-" + std::to_string(number) + ".json");
 }
 
-/// Whether the kept removals are those that the cell was scored by.
+/// Whether the kept removals are those of the cell's scores.
 bool has_removals(const path& folder, const Cell& cell, const ScanSource& scans) {
   if (!cell.masks) return false;
   const auto kept = if_whole([&] { return read_removals(folder / kRemovals, scans, [] {}); });
@@ -36,7 +36,7 @@ std::string damage(const path& file) {
   return file.filename().string() + " is damaged or was changed by hand";
 }
 
-/// @throws DataError if a folder of removals holds anything that no run writes
+/// @throws DataError if a folder of removals holds files that no run writes
 void check_replaceable(const path& removals) {
   if (can_remove_removals(removals)) return;
   throw DataError(removals.string() +
@@ -49,11 +49,11 @@ bool is_cell_file(const path& name) {
          (name.string().starts_with("timing-") && name.extension() == ".json");
 }
 
-/// Removes what a killed run left in a cell's folder: files with names that only runs give.
+/// Removes files of a killed run from a cell's folder, by names that only runs use.
 void sweep_cell(const path& folder) {
   for (const path& entry : entries_of(folder)) {
     const path name = name_of_part(entry);
-    // The second is what earlier versions left.
+    // Earlier versions left the second name.
     if (name == kRemovals || entry.filename() == "removals.part") remove_removals(entry);
     std::error_code ignored;
     if (is_cell_file(name)) std::filesystem::remove(entry, ignored);
@@ -131,7 +131,7 @@ void CellStore::keep(const Cell& cell, const path& removals) const {
   const bool has = !removals.empty() && has_folder(removals);
   if (has || is_there(place)) {
     check_replaceable(place);
-    // A cell never stands beside removals of another one.
+    // A cell is never stored beside the removals of another cell.
     remove_if_there(cell_folder / "cell.json");
     if (!remove_removals(place)) {
       throw DataError(place.string() + ": something was put into it meanwhile. Move it away.");

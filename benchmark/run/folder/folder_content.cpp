@@ -38,7 +38,8 @@ std::string why_other_sequences(const RunRecord& present, const RunRecord& asked
   return "";
 }
 
-/// A new version of a protocol is no other suite: what it does not fit is run again or left out.
+/// A new version of a protocol does not make another suite: cells of the old version are run again
+/// or left out.
 std::vector<ProtocolRecord> without_versions(std::vector<ProtocolRecord> protocols) {
   for (ProtocolRecord& protocol : protocols) protocol.version.clear();
   return protocols;
@@ -56,7 +57,7 @@ std::string why_other_protocols(const RunRecord& present, const RunRecord& asked
   return difference.empty() ? "" : "the folder's results are scored otherwise: " + difference + ".";
 }
 
-/// Two names that differ and have one folder, as "a:b" and "a-b" do.
+/// Two different names with the same folder, such as "a:b" and "a-b".
 std::string why_shared_folder(const std::vector<std::string>& present,
                               const std::vector<std::string>& asked) {
   for (const std::string& name : asked) {
@@ -69,8 +70,8 @@ std::string why_shared_folder(const std::vector<std::string>& present,
   return "";
 }
 
-/// Items of both lists, by name: those of `asked` stand for what both have. The order is that of
-/// `asked` if it has all, else what is new comes last.
+/// Items of both lists, by name; an item of `asked` replaces one of the same name. The order is
+/// that of `asked` if it has all items, else new items come last.
 template <class Item>
 std::vector<Item> merged_list(const std::vector<Item>& present, const std::vector<Item>& asked) {
   const bool has_all = std::all_of(present.begin(), present.end(), [&](const Item& item) {
@@ -101,7 +102,7 @@ std::vector<CellName> merged_cells(const RunRecord& merged, const RunRecord& pre
   return cells;
 }
 
-/// Why a cell that is there does not fit the others of the folder any more; empty if it does.
+/// Why a stored cell no longer fits the other cells of the folder; empty if it does.
 std::string why_left_out(const Cell& cell, const RunRecord& record,
                          const std::vector<ProtocolRecord>& protocols) {
   const SuiteMethodRecord* method = find_named(record.methods, cell.name);

@@ -14,19 +14,19 @@ namespace raymoval {
 /// @throws DataError if it is damaged or of another version, pointing to --overwrite
 std::optional<RunRecord> present_record(const std::filesystem::path& out);
 
-/// Why cells of the run `asked` cannot stand in one table with those of the folder's `present`
-/// run.json: empty if they can. Results belong together if
+/// Why cells of the run `asked` cannot share a table with those of the folder's `present` run.json;
+/// empty if they can. Results belong together if
 /// - at most one of the two is a suite with a name, or both have the same name,
 /// - sequences of one name were read in the same way (frames, poses, sensor, range, label rule),
 /// - protocols and their options are the same,
-/// - no two names would share a folder.
+/// - no two names share a folder.
 std::string why_not_together(const RunRecord& present, const RunRecord& asked);
 
-/// The same for a sequence's `fingerprint`, which takes reading all of its data.
+/// The same for a sequence's `fingerprint`, for which all of its data is read.
 std::string why_other_data(const RunRecord& present, const std::string& sequence,
                            const std::string& fingerprint);
 
-/// @throws UsageError with `why` and what to do, unless it is empty
+/// @throws UsageError with `why` and the remedy, unless `why` is empty
 void refuse_other_results(const std::filesystem::path& out, const std::string& why);
 
 /// The fingerprint that a run.json has of a sequence; empty if it has none.
@@ -37,28 +37,28 @@ bool set_reading(RunRecord& record, const std::string& sequence, const std::stri
                  const std::optional<PoseFitRecord>& fit);
 
 /// run.json of a folder to which the run `asked` is added: the sequences, methods and cells of
-/// both. Where both have one, it is that of `asked`; so are build and machine.
+/// both. Items of both are taken from `asked`, as are build and machine.
 RunRecord merged_run_record(const RunRecord& present, const RunRecord& asked);
 
-/// Cells of earlier runs that a run did not ask for and that stay in the folder's tables.
+/// Cells of earlier runs that are not part of a run and stay in the folder's tables.
 struct EarlierCells {
   std::vector<Cell> kept;
-  /// "sequence / method: reason" of those that are there and do not fit the others any more: the
-  /// method has other parameters or another version now, or a protocol has.
+  /// "sequence / method: reason" of stored cells that no longer fit the others: their method or a
+  /// protocol has other parameters or another version now.
   std::vector<std::string> left_out;
 
-  /// Null if it is not there.
+  /// Null if there is no such cell.
   [[nodiscard]] const Cell* find(const CellName& cell) const;
-  /// A line for each sequence with what is kept, and one for each cell that is left out.
+  /// A line for each sequence with its kept cells, and one for each cell that is left out.
   [[nodiscard]] std::vector<std::string> lines() const;
 };
 
-/// Reads those of the cells of `record` that `asked` does not have, with their repeats.
+/// Reads the cells of `record` that `asked` does not have, with their repeats.
 EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
                                 const RunRecord& asked);
 
-/// Lets the run of median time among `cell` and its further runs stand for all of them; the others'
-/// times stand beside it.
+/// Gives `cell` the measurement of the run of median time among itself and its further runs, and
+/// lists the times of all runs.
 void merge_repeats(Cell& cell, const std::vector<Measurement>& further);
 
 }  // namespace raymoval

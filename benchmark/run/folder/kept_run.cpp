@@ -21,7 +21,7 @@ namespace {
 
 using std::filesystem::path;
 
-/// A sequence was opened that the run was not made on.
+/// The opened sequence is not that of the run.
 class OtherData : public DataError {
  public:
   OtherData(const std::string& at, const std::string& difference)
@@ -51,7 +51,7 @@ std::vector<KeptCell> all_cells(const ResultsRecord& record, const path& folder)
   return all;
 }
 
-/// Puts the places of the sequences, which only run.json says, into the record.
+/// Adds the places of the sequences, which only run.json has, to the record.
 void add_places(const path& run_json, ResultsRecord& record) {
   if (!has_file(run_json)) return;  // Only --data helps then.
   const RunRecord run = read_run_record(run_json);
@@ -61,7 +61,7 @@ void add_places(const path& run_json, ResultsRecord& record) {
   }
 }
 
-/// Where a sequence that was opened at `given` may be below `data`, likeliest first.
+/// Possible places below `data` of a sequence that was opened at `given`, the likeliest first.
 std::vector<std::string> places_below(const path& data, const std::string& given,
                                       const std::string& name) {
   std::vector<std::string> places;
@@ -78,7 +78,7 @@ std::vector<std::string> places_below(const path& data, const std::string& given
   return places;
 }
 
-/// `data` as a path that is never taken for a scene. @throws UsageError if it leads nowhere
+/// `data` as a path that is never taken for a scene. @throws UsageError if it does not exist
 std::string data_folder(const std::string& data) {
   const std::string root = data.substr(0, data.rfind(':'));  // ROOT:05
   if (!is_folder(data) && !is_folder(root)) {

@@ -34,7 +34,7 @@ bool is_run_file(const path& name) {
   return std::find(kNames.begin(), kNames.end(), text) != kNames.end();
 }
 
-/// "run.json.123.part", as earlier versions called what they had not finished.
+/// "run.json.123.part", as earlier versions named unfinished files.
 bool is_part_of_earlier_version(const path& name) {
   const path number = name.stem().extension();
   return name.extension() == ".part" && number.string().size() > 1 &&
@@ -44,7 +44,7 @@ bool is_part_of_earlier_version(const path& name) {
 bool is_lock(const path& entry) {
   if (entry.filename() != kLockFile || !is_file(entry)) return false;
   const auto start = if_whole([&] { return read_piece(entry, 0, 8); });
-  if (!start) return false;  // Its holder took it away.
+  if (!start) return false;  // Its holder removed it.
   return start->empty() || *start == "process ";
 }
 
@@ -55,7 +55,8 @@ bool holds_cells(const path& entry) {
   return std::all_of(inside.begin(), inside.end(), is_folder);
 }
 
-/// What a run may leave before it marks its folder, or somebody who copies cells together.
+/// Entries of a run folder without a marker: a run was ended early, or a user copied cells
+/// together.
 bool may_be_ours(const path& entry) {
   return is_run_file(name_of_part(entry)) || is_part_of_earlier_version(entry.filename()) ||
          is_lock(entry) || holds_cells(entry);
@@ -75,7 +76,7 @@ bool is_run_record(const path& file) {
   return true;
 }
 
-/// @throws UsageError for a folder that may belong to somebody else
+/// @throws UsageError for a folder that may not be a run's
 void check_is_run_folder(const path& out) {
   if (has_file(out / kRunMarker)) return;
   const std::string where = "--out " + out.string() + ": ";
@@ -89,7 +90,7 @@ void check_is_run_folder(const path& out) {
   }
   for (const path& entry : entries_of(out)) {
     if (may_be_ours(entry)) continue;
-    if (has_file(out / kRunMarker)) return;  // Another process has begun here meanwhile.
+    if (has_file(out / kRunMarker)) return;  // Another run has marked the folder meanwhile.
     throw UsageError(where + "the folder holds other files (" + entry.filename().string() +
                      ") and no run." + remedy);
   }

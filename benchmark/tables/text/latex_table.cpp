@@ -16,14 +16,15 @@ constexpr double kColumnWidth = 200.0;  ///< Of one with two columns; other clas
 constexpr std::size_t kMostLines = 46;  ///< Of a float, so that it is not higher than a page.
 constexpr std::size_t kLongText = 26;   ///< Characters; columns with more are broken into lines.
 
-/// How wide things are, in points; a little more than they are.
+/// Widths of text, in points, slightly overestimated.
 struct Measures {
   double character, gap;
 };
 constexpr Measures kNormal{5.4, 12.0};
 constexpr Measures kSmall{4.5, 6.0};  ///< \footnotesize with \tabcolsep of 3 pt.
 
-/// A character that LaTeX knows by itself, from UTF-8; '?' for others. `at` goes behind it.
+/// Reads a UTF-8 character that LaTeX supports without packages; '?' for others. `at` moves past
+/// it.
 std::string known_character(const std::string& text, std::size_t& at) {
   const auto first = static_cast<unsigned char>(text[at]);
   if (first < 0x80) return std::string(1, text[at++]);
@@ -59,13 +60,13 @@ std::string latex_escaped(const std::string& any_text) {
     if (character == "-" && escaped.ends_with('-')) escaped += "{}";
     escaped += escaped_character(character);
   }
-  // Behind the end of a row these would belong to it, however many blanks are between.
+  // After the end of a row, these would be read as its option, even after blanks.
   const std::size_t first = std::min(escaped.find_first_not_of(' '), escaped.size());
   const bool belongs = escaped[first] == '[' || escaped[first] == '*';
   return belongs ? "{}" + escaped : escaped;
 }
 
-/// "accuracy-by-protocol-erasor": what a \\label may hold of a title.
+/// "accuracy-by-protocol-erasor": the title in a form that \\label allows.
 std::string label_of(const std::string& title) {
   std::string label;
   for (const char c : title) {
@@ -80,7 +81,8 @@ std::string label_of(const std::string& title) {
   return label;
 }
 
-/// The same for a column that is broken into lines: words may also be broken behind these.
+/// The same for a column that is broken into lines: words may also be broken after these
+/// characters.
 std::string breakable(const std::string& text) {
   std::string broken;
   std::string piece;
@@ -93,7 +95,7 @@ std::string breakable(const std::string& text) {
   return broken + latex_escaped(piece);
 }
 
-/// A column with the heading that it stands below.
+/// A column with its heading.
 struct LatexColumn {
   std::size_t group = 0;
   std::string name;
@@ -185,7 +187,7 @@ class LatexTable {
     return (is_wide_ ? kTextWidth : kColumnWidth) - label_width(measures());
   }
 
-  /// Puts groups that fit into blocks whole, larger ones column by column.
+  /// Puts groups that fit into a block as a whole, larger groups column by column.
   void cut() {
     const double room = room_for_columns();
     blocks_.emplace_back();
@@ -206,8 +208,8 @@ class LatexTable {
     }
   }
 
-  /// Fills floats with as many tabulars as a page holds: for each cut of the columns all rows, at
-  /// best whole blocks of them.
+  /// Fills floats with as many tabulars as a page holds: all rows for each column block, if
+  /// possible in whole row blocks.
   void pack() {
     for (const ColumnBlock& block : blocks_) {
       const std::size_t around = 5 + (has_headings_ ? 1 : 0);
@@ -280,7 +282,7 @@ class LatexTable {
 
   [[nodiscard]] std::string tabular_text(const Tabular& part) const {
     const ColumnBlock& block = *part.block;
-    // Behind \raggedright the usual end of a row means the end of a line.
+    // After \raggedright, `\\` ends a line and not a row.
     const bool has_long = std::any_of(block.begin(), block.end(),
                                       [](const LatexColumn& column) { return column.is_long; });
     const std::string end_of_row = has_long ? " \\tabularnewline\n" : " \\\\\n";

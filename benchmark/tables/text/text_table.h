@@ -14,7 +14,7 @@ enum class Mark { kNone, kBest, kSecond };
 struct TableCell {
   std::string text;
   Mark mark = Mark::kNone;
-  /// The number that the text shows, as displayed; nothing in a cell whose number is not compared.
+  /// The displayed number; no value in a cell whose number is not compared.
   std::optional<double> value = {};
 };
 
@@ -27,7 +27,7 @@ struct TableRow {
   std::string label;
   std::vector<TableCell> cells;
   bool summary = false;    ///< Set apart from the rows above it.
-  std::string block = {};  ///< Heading of the rows that it stands among, such as a sequence.
+  std::string block = {};  ///< Heading of the row's block, such as a sequence.
 };
 
 /// Columns that share a heading, such as PR, RR and F1 of a method.
@@ -43,7 +43,7 @@ struct TextTable {
   std::vector<TableGroup> groups = {};
   std::vector<TableRow> rows = {};  ///< As many cells as all groups have columns.
   std::vector<std::string> notes = {};
-  std::string data = {};  ///< What it was measured on; stands in the caption of LaTeX.
+  std::string data = {};  ///< The data of the measurement, for the caption of LaTeX.
 };
 
 /// Rows [first, end) of a table.
@@ -54,8 +54,8 @@ struct RowRange {
 /// The rows of each block, in their order.
 std::vector<RowRange> blocks_of(const TextTable& table);
 
-/// Marks the best and the second best of the cells by their values; cells that look equal are
-/// marked alike. If fewer than two cells have a value, none is marked.
+/// Marks the best and the second best cell by value; cells that are displayed equally get the same
+/// mark. If fewer than two cells have a value, none is marked.
 void mark_best(const std::vector<TableCell*>& cells, bool higher_is_better);
 /// The same in column `place` of the rows that are no summary, of all of them or of some.
 void mark_best(TextTable& table, std::size_t place, bool higher_is_better);
@@ -65,20 +65,20 @@ void mark_best(TextTable& table, std::size_t place, bool higher_is_better, const
 std::string padded(const std::string& text, std::size_t width);
 std::string padded_left(const std::string& text, std::size_t width);
 
-/// At most `most` characters: "..." stands for the middle of a longer text.
+/// At most `most` characters: "..." replaces the middle of a longer text.
 std::string shortened_middle(const std::string& text, std::size_t most);
 
-/// At most `most` characters: "..." stands for the end of a longer text.
+/// At most `most` characters: "..." replaces the end of a longer text.
 std::string shortened_end(const std::string& text, std::size_t most);
 
 /// Lines of at most `most` characters, broken between words, each with its end of line.
 std::string wrapped(const std::string& text, std::size_t most);
 
-/// `text` for Markdown, in which nothing of it is a table, tag, link, picture, code or character
-/// entity. Control and invisible characters go the way of `printable_text`.
+/// `text` escaped for Markdown: no part of it is read as a table, tag, link, picture, code or
+/// character entity. Control and invisible characters are treated as in `printable_text`.
 std::string markdown_text(const std::string& text, std::string_view special = "|<*[`\\&");
 
-/// How wide text for a terminal is at most.
+/// Maximum width of text for a terminal.
 inline constexpr std::size_t kTerminalWidth = 100;
 
 /// Columns aligned by blanks, for a terminal: no title, no blocks, the best value with a '*'.
@@ -88,14 +88,14 @@ std::string to_plain(const TextTable& table);
 /// table of its own, all of the same widths.
 std::string to_markdown(const TextTable& table);
 
-/// LaTeX that needs the package booktabs and nothing else: everything escaped, best bold, second
-/// underlined, each block below a heading. What is too wide for a column of a two-column article
-/// (200 pt) is set smaller; what is then still too wide becomes a `table*`, which spans both
-/// columns. What does not fit the text of an article (345 pt) is cut into several tables, one below
-/// the other, and what is higher than a page into several floats; long texts are broken into lines.
-/// The caption has the title and the data, and the label is made of the title:
-/// "tab:accuracy-by-protocol-erasor". Characters beyond Latin-1, which LaTeX does not know by
-/// itself, become question marks.
+/// LaTeX that needs only the package booktabs: everything escaped, best bold, second underlined,
+/// each block below a heading. A table that is too wide for a column of a two-column article (200
+/// pt) is set smaller. If it is still too wide, it becomes a `table*`, which spans both columns. If
+/// it does not fit the text of an article (345 pt), it is divided into several tables, one below
+/// the other. A table higher than a page is divided into several floats. Long texts are broken into
+/// lines. The caption has the title and the data, and the label is made of the title:
+/// "tab:accuracy-by-protocol-erasor". Characters beyond Latin-1, which LaTeX does not support
+/// without packages, become question marks.
 std::string to_latex(const TextTable& table);
 
 }  // namespace raymoval

@@ -16,16 +16,17 @@ namespace raymoval::patchwork {
 namespace {
 
 // Constants of Patchwork++.
-/// A mirrored point lies so many metres below the ground, in steeper directions than this.
+/// A mirrored point is more than this depth (metres) below the ground, and steeper than this
+/// elevation.
 constexpr double kMirroredDepth = 0.8, kMirroredElevation = -15.0 * kDegree;
-/// A plane that is neither low nor flat is compared with the mean flatness of its ring and so many
-/// deviations.
+/// A plane that is neither low nor flat is compared with the mean flatness of its ring plus this
+/// many deviations.
 constexpr double kRingDeviations = 1.5;
-/// One with so many points is ground if it is flat by itself.
+/// A plane with more points is ground if its flatness is within the ground distance.
 constexpr double kManyPoints = 1500.0;
-/// One whose points vary so much more along it than across is a line, and no ground.
+/// A plane with a larger ratio of its two variances is a line, and not ground.
 constexpr double kLineRatio = 8.0;
-// Work for a thread at a time. They change no answer.
+// Work for a thread at a time; no effect on the result.
 constexpr std::size_t kPointsATask = 8192, kBinsATask = 8;
 
 double first_height(const GroundParameters& parameters) {
@@ -33,7 +34,7 @@ double first_height(const GroundParameters& parameters) {
                                   : std::numeric_limits<double>::infinity();
 }
 
-// How many planes of a ring are remembered, and deviations above their mean.
+// Stored planes of a ring, and deviations above their mean.
 constexpr std::size_t kMostStored = 1000;
 constexpr double kElevationDeviations = 2.0, kInnermostElevationDeviations = 3.0;
 constexpr double kFlatnessDeviations = 1.0;
@@ -43,8 +44,8 @@ void push(std::deque<double>& values, double value) {
   if (values.size() > kMostStored) values.pop_front();
 }
 
-/// In the innermost zone, what lies deeper than so many heights of the sensor is mirrored and no
-/// measure of where the ground begins ('adaptive_seed_selection_margin' of Patchwork++).
+/// In the innermost zone, points deeper than this multiple of the sensor's height are mirrored and
+/// do not seed the ground ('adaptive_seed_selection_margin' of Patchwork++).
 constexpr double kDeepestGround = 1.2;
 
 /// One bin while its planes are fitted.
@@ -59,7 +60,7 @@ class BinFit {
         deepest_(surroundings.is_innermost ? -kDeepestGround * surroundings.sensor_height
                                            : -std::numeric_limits<double>::infinity()) {}
 
-  /// R-VPF. @return whether any point is left
+  /// R-VPF. @return whether points remain
   bool take_walls_out() {
     for (int round = 0; round < parameters_.plane_rounds; ++round) {
       choose_seeds(parameters_.wall_seed_height);
@@ -82,26 +83,26 @@ class BinFit {
         const bool is_near = fit.plane.height_of(points_[i]) < parameters_.ground_distance;
         ground_[i] = left_[i] != 0 && is_near ? 1 : 0;
       }
-      // Some of the points that the plane was fitted to are not above it, so that some are chosen.
+      // Some points of the fit are not above the plane, so that at least one is chosen.
       fit = fit_plane(points_, ground_);
     }
     return fit;
   }
 
  private:
-  /// Mean height of the lowest points that are left.
+  /// Mean height of the lowest remaining points.
   double lowest_height() {
     heights_.clear();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (left_[i] != 0 && points_[i].z() >= deepest_) heights_.push_back(points_[i].z());
     }
-    // All are deep: the ground falls. All of them seed it.
+    // All are deep: the ground descends. All of them are seeds.
     if (heights_.empty()) return std::numeric_limits<double>::infinity();
     const std::size_t count =
         std::min(heights_.size(), static_cast<std::size_t>(parameters_.lowest_points));
     const auto end = heights_.begin() + static_cast<std::ptrdiff_t>(count);
     std::nth_element(heights_.begin(), end - 1, heights_.end());
-    std::sort(heights_.begin(), end);  // So that the order of points changes no digit.
+    std::sort(heights_.begin(), end);  // So that the sum does not depend on the order of points.
     double sum = 0.0;
     for (auto height = heights_.begin(); height != end; ++height) sum += *height;
     return sum / static_cast<double>(count);
@@ -205,7 +206,7 @@ Mask GroundSegmentation::find_ground(const Scan& scan, int threads) {
   fit_bins(threads);
   if (!is_height_known_) {
     find_sensor_height();
-    if (is_height_known_) {  // Now mirrored points can be told.
+    if (is_height_known_) {  // Mirrored points can be found now.
       place_points(scan, threads);
       fit_bins(threads);
     }
@@ -311,7 +312,7 @@ bool GroundSegmentation::is_like_ring(const BinPlane& plane,
   const double own = parameters_.ground_distance * parameters_.ground_distance;
   if (plane.fit->points > kManyPoints && plane.flatness() < own) return true;
   if (flatnesses.empty()) return false;
-  // The likeness is a logistic function of the flatness, which is above one half below its middle.
+  // The likelihood is a logistic function of the flatness; it is above one half below its midpoint.
   const MeanAndDeviation ring = mean_and_deviation(flatnesses);
   return plane.flatness() < ring.mean + kRingDeviations * ring.deviation;
 }

@@ -15,8 +15,8 @@
 
 namespace raymoval::patchwork {
 
-/// The concentric zone model: four zones around the sensor, each of rings of equal width that are
-/// cut into sectors of equal angle.
+/// The concentric zone model: four zones around the sensor, each with rings of equal width and
+/// sectors of equal angle.
 class ZoneModel {
  public:
   static constexpr int kNone = -1;
@@ -25,21 +25,22 @@ class ZoneModel {
   static constexpr int kAllRings = 14;
   static constexpr int kAllBins = 2 * 16 + 4 * 32 + 4 * 54 + 4 * 32;
 
-  /// @param from, to horizontal distances where the first zone begins and the last one ends, metres
+  /// @param from, to horizontal distances of the start of the first and the end of the last zone,
+  /// metres
   ZoneModel(double from, double to);
 
-  /// The bin of a place, `kNone` if it lies in no zone. Sector 0 begins at +x and goes toward +y.
+  /// The bin of a place, `kNone` outside all zones. Sector 0 begins at +x and goes toward +y.
   [[nodiscard]] int bin_of(double x, double y) const;
   /// The first bin of a ring; that of ring `kAllRings` is `kAllBins`.
   [[nodiscard]] static int first_bin(int ring);
   [[nodiscard]] static bool is_innermost_zone(int bin) { return bin < kRings[0] * kSectors[0]; }
 
  private:
-  std::array<double, 5> bounds_;  ///< Where the zones begin, and the last one ends, metres.
+  std::array<double, 5> bounds_;  ///< Starts of the zones and end of the last one, metres.
 };
 
-/// Rings from the sensor on in which a plane must prove that it is ground. Beyond, an upright one
-/// is ground.
+/// Innermost rings in which a plane must be low or flat to be ground. Beyond, any upright plane is
+/// ground.
 inline constexpr int kProvedRings = 4;
 
 struct MeanAndDeviation {
@@ -49,7 +50,7 @@ struct MeanAndDeviation {
 /// @param values at least one
 MeanAndDeviation mean_and_deviation(const std::deque<double>& values);
 
-/// What planes of each of the innermost rings are compared with. It adapts after each scan.
+/// Thresholds for the planes of each of the innermost rings. They adapt after each scan.
 class GroundThresholds {
  public:
   /// @param sensor_height metres above the ground; infinite where it is unknown
@@ -57,14 +58,15 @@ class GroundThresholds {
 
   [[nodiscard]] double sensor_height() const { return sensor_height_; }
   void set_sensor_height(double height) { sensor_height_ = height; }
-  /// A plane whose mean height above the sensor is below this lies low enough, metres.
+  /// A plane with a mean height above the sensor below this is low enough, metres.
   [[nodiscard]] double elevation(int ring) const { return rings_.at(index(ring)).elevation; }
-  /// A plane whose least variance is below this is flat enough, square metres.
+  /// A plane with a least variance below this is flat enough, square metres.
   [[nodiscard]] double flatness(int ring) const { return rings_.at(index(ring)).flatness; }
 
-  /// Remembers a plane of a ring that was low enough. The last 1,000 of each ring count.
+  /// Stores a plane of a ring that was low enough. The last 1,000 planes of each ring are used.
   void store(int ring, double elevation, double flatness);
-  /// Takes in what was stored. The planes of the innermost ring tell the sensor's height anew.
+  /// Updates the thresholds from the stored planes. The planes of the innermost ring also give a
+  /// new sensor height.
   void adapt();
 
  private:
@@ -78,40 +80,40 @@ class GroundThresholds {
   std::array<Ring, kProvedRings> rings_;
 };
 
-/// What a bin lies like: in the innermost zone there may be mirrored points below the ground, and
-/// walls next to the sensor.
+/// The surroundings of a bin: in the innermost zone there may be mirrored points below the ground,
+/// and walls next to the sensor.
 struct BinSurroundings {
   bool is_innermost = false;
   double sensor_height = 0.0;  ///< Metres above the ground; infinite where it is unknown.
 };
 
-/// R-VPF and R-GPF (region-wise fits of vertical and of ground planes): finds the plane that a bin
-/// begins with from below, after walls are taken out in the innermost zone.
+/// R-VPF and R-GPF (region-wise fits of vertical and of ground planes): finds the lowest plane of a
+/// bin, after walls are removed in the innermost zone.
 /// @param points level frame with the sensor at the origin, metres; at least one
-/// @param ground as long as the points; becomes 1 for the points near the plane or below it
-/// @return the plane through those points, or nothing where all points belong to walls
+/// @param ground as long as the points; set to 1 for the points near or below the plane
+/// @return the plane through those points; no value if all points belong to walls
 std::optional<PlaneFit> find_bin_ground(std::span<const Eigen::Vector3d> points,
                                         const BinSurroundings& surroundings,
                                         const GroundParameters& parameters,
                                         std::span<std::uint8_t> ground);
 
 /// S. Lee, H. Lim, H. Myung: "Patchwork++: Fast and Robust Ground Segmentation Solving Partial
-/// Under-Segmentation Using 3D Point Cloud", IROS 2022. Tells which points of a scan are ground:
-///  1. RNR: points mirrored to below the ground are none.
-///  2. The others fall into bins of rings and sectors around the sensor, in a frame whose z is up.
-///  3. R-VPF, R-GPF: each bin's walls are taken out and its plane is found.
-///  4. A plane is ground if it is upright and, near the sensor, low enough or flat enough.
-///  5. TGR: a plane that is neither is ground after all if it is about as flat as the other ground
-///     of its ring.
-///  6. A-GLE: what is low enough and flat enough is told by the planes of all scans before.
-/// Scans are to be given in order, since each adapts what the next ones are compared with.
+/// Under-Segmentation Using 3D Point Cloud", IROS 2022. Finds the ground points of a scan:
+///  1. RNR: points mirrored to below the ground are not ground.
+///  2. The other points are sorted into bins of rings and sectors around the sensor, with z up.
+///  3. R-VPF, R-GPF: each bin's walls are removed and its plane is found.
+///  4. A plane is ground if its normal is upright and, near the sensor, it is low or flat enough.
+///  5. TGR: a plane that is neither is ground if it is about as flat as the other ground of its
+///     ring.
+///  6. A-GLE: the thresholds of step 4 follow from the planes of all earlier scans.
+/// Scans must be given in order, because each scan adapts the thresholds for the next ones.
 class GroundSegmentation {
  public:
   explicit GroundSegmentation(const GroundParameters& parameters);
 
-  /// One value per point, 1 = ground. The answer does not depend on `threads`.
+  /// One value per point, 1 = ground. The result does not depend on `threads`.
   Mask find_ground(const Scan& scan, int threads);
-  /// What the next scan will be compared with.
+  /// The thresholds for the next scan.
   [[nodiscard]] const GroundThresholds& thresholds() const { return thresholds_; }
 
  private:
@@ -139,7 +141,7 @@ class GroundSegmentation {
                                  std::size_t i) const;
   void fit_bins(int threads);
   void find_sensor_height();
-  /// Steps 4 and 5 for a ring; its bins that are no ground lose their ground points.
+  /// Steps 4 and 5 for a ring: removes the ground points of its bins that are not ground.
   void judge_ring(int ring);
   [[nodiscard]] bool is_like_ring(const BinPlane& plane,
                                   const std::deque<double>& flatnesses) const;
@@ -151,12 +153,12 @@ class GroundSegmentation {
   ZoneModel zones_;
   GroundThresholds thresholds_;
   bool is_height_known_;
-  // Of the scan that is looked at.
+  // Of the current scan.
   std::vector<Eigen::Vector3d> level_;    ///< Its points in the frame whose z is up.
   std::vector<int> bin_;                  ///< The bin of each point.
-  std::vector<std::size_t> begin_;        ///< Where each bin's points begin in the next three.
+  std::vector<std::size_t> begin_;        ///< First index of each bin in the next three vectors.
   std::vector<std::uint32_t> point_;      ///< The points, by bins, in their order in the scan.
-  std::vector<Eigen::Vector3d> in_bins_;  ///< Their places.
+  std::vector<Eigen::Vector3d> in_bins_;  ///< Their positions.
   std::vector<std::uint8_t> ground_;      ///< Their verdicts.
   std::vector<BinPlane> planes_;
 };

@@ -5,8 +5,8 @@
 
 namespace raymoval::patchwork {
 
-/// What Patchwork++ is told; defaults are those that its public program has for KITTI. A method
-/// that segments the ground derives its own parameters from these and puts them into its table by
+/// Parameters of Patchwork++; defaults are those of its public program for KITTI. A method that
+/// segments the ground derives its parameters from these, and adds them to its table by
 /// `add_ground_parameters`.
 struct GroundParameters {
   double sensor_height = 1.723;
@@ -21,7 +21,7 @@ struct GroundParameters {
   double wall_distance = 0.1;
   double upright = 0.707;
   double noise_reflectance = 0.2;
-  // As the public program does it.
+  // Behaviour of the public program.
   bool public_height = true;
   bool public_axes = true;
 };

@@ -54,7 +54,7 @@ namespace {
 
 constexpr std::size_t kPointGrain = 8192;
 
-/// Eqs 1-3 for one point, as the formulas say.
+/// Eqs 1-3 for one point, exactly by the formulas.
 std::int32_t bin_of_point(const Eigen::Vector3f& point, const AngularGrid& grid,
                           double minimum_range) {
   const Spherical at = to_spherical(point.cast<double>());

@@ -36,8 +36,8 @@ struct AngularGrid {
   [[nodiscard]] int azimuth_of(int bin) const { return bin % azimuth_bins; }
   [[nodiscard]] int elevation_of(int bin) const { return bin / azimuth_bins; }
 
-  /// Eq. 3. There is no bin outside the vertical field of view: such a point is never clamped into
-  /// the border row.
+  /// Eq. 3. No value outside the vertical field of view: points are not clamped into the border
+  /// row.
   [[nodiscard]] std::optional<int> bin_of(double azimuth, double elevation) const;
   [[nodiscard]] double azimuth_centre(int i) const;    ///< Eq. 4.
   [[nodiscard]] double elevation_centre(int j) const;  ///< Eq. 4.
@@ -48,17 +48,17 @@ struct AngularGrid {
 /// A scan sorted into the bins of a grid.
 struct ProjectedScan {
   std::vector<float> range;       ///< The range of each point, metres.
-  std::vector<std::int32_t> bin;  ///< The bin of each point; -1 if it is in none.
+  std::vector<std::int32_t> bin;  ///< The bin of each point; -1 outside all bins.
   std::vector<float>
       minimum_range;  ///< d_scan of each bin (eq. 10), metres; infinite if it is empty.
 };
 
-/// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) go to no bin.
+/// Eqs 1-3 and 10. Points nearer than `minimum_range` (the ego vehicle) get no bin.
 /// @param projected replaced; its memory is used again
 void project(const Scan& scan, const AngularGrid& grid, double minimum_range, int threads,
              ProjectedScan& projected);
 
-/// The column of a full circle that `i` means, which may lie up to one turn outside.
+/// The column of a full circle for `i`, which may be up to one turn outside.
 inline int wrap_azimuth(int i, int azimuth_bins) {
   return i < 0 ? i + azimuth_bins : (i >= azimuth_bins ? i - azimuth_bins : i);
 }

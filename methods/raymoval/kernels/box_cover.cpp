@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiled for each instruction set for one instruction only, the one that counts bits.
+// Compiled for each instruction set, only for the instruction that counts bits.
 #include "methods/raymoval/kernels/occupancy_map.h"
 
 #include "core/simd/compiled_sets.h"

@@ -18,7 +18,7 @@ using sweep::GridTables;
 using sweep::kGroup;
 using sweep::WallTables;
 
-constexpr double kSteep = 1.55;  // Beyond this elevation the tangent is as good as infinite.
+constexpr double kSteep = 1.55;  // Beyond this elevation the tangent counts as infinite.
 
 GridTables tables_for(const AngularGrid& grid) {
   GridTables tables;
@@ -95,7 +95,7 @@ void gather_bricks(const OccupancyMap& map, const WallTables& walls, float range
       }
     }
   }
-  // The padding is measured too; it only has to be numbers.
+  // The padding is measured too, so it must hold valid numbers.
   bricks.require(bricks.count);
   for (std::size_t i = bricks.count; i % kGroup != 0; ++i) {
     for (std::size_t k = 0; k < 3; ++k) bricks.low[k][i] = bricks.high[k][i] = 1.0F;
@@ -132,7 +132,7 @@ template <class Visit>
 void for_columns(const Frame& frame, std::size_t brick, int begin, int end, Visit&& visit) {
   const int columns = frame.grid->columns;
   const int first = frame.bricks->first_column[brick], last = frame.bricks->last_column[brick];
-  if (first >= begin && last < end) {  // As nearly all do.
+  if (first >= begin && last < end) {  // The usual case.
     for (int i = first; i <= last; ++i) visit(i - begin);
     return;
   }
@@ -142,7 +142,7 @@ void for_columns(const Frame& frame, std::size_t brick, int begin, int end, Visi
   }
 }
 
-/// Sorts the bricks into the columns they are seen in, nearest first.
+/// Sorts the bricks into the columns that see them, nearest first.
 void list_columns(const Frame& frame, int begin, int end, ColumnLists& lists) {
   const BrickList& bricks = *frame.bricks;
   auto& starts = lists.starts;
@@ -164,7 +164,7 @@ void list_columns(const Frame& frame, int begin, int end, ColumnLists& lists) {
   }
 }
 
-/// The two world axes that are the farthest from the sensor's up axis.
+/// The two world axes farthest from the sensor's up axis.
 std::array<int, 2> level_axes(const std::array<double, 3>& up) {
   std::array<int, 3> axes = {0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) {
@@ -219,8 +219,8 @@ Frame FirstHitCaster::start_frame(const OccupancyMap& map, const Pose& T_world_s
   return frame;
 }
 
-/// Each thread lists the bricks of one part of the circle; the parts are then swept in smaller
-/// pieces, some of which take longer than others.
+/// Each thread lists the bricks of one part of the circle. The parts are then swept in smaller
+/// pieces, because pieces take different times.
 void FirstHitCaster::sweep_image(const Frame& frame, int threads, float* range) {
   constexpr std::size_t kPiece = kGroup;
   const auto columns = static_cast<std::size_t>(grid_.azimuth_bins);
@@ -249,7 +249,7 @@ FirstHitImage cast_first_hits(OccupancyMap& map, const Pose& T_world_sensor,
 std::optional<VoxelIndex> FirstHitImage::voxel(const OccupancyMap& map, int bin) const {
   const double hit = range[static_cast<std::size_t>(bin)];
   if (!(hit <= limits.maximum_range)) return std::nullopt;
-  // Float ranges are off by less than this; what lies before it is known to be empty.
+  // The error of float ranges is smaller than this; the ray is empty before it.
   const double rounding = 1e-3 * map.voxel_size() + 1e-6 * hit;
   const auto found = cast_ray(map, ray(bin), limits, std::max(0.0, hit - rounding));
   if (!found) return std::nullopt;

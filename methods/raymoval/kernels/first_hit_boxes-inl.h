@@ -28,21 +28,21 @@ F number(double value) {
   return hn::Set(Floats(), static_cast<float>(value));
 }
 
-/// Fields of a group of boxes as the sweep wants them, each of kGroup numbers.
+/// Fields of a group of boxes for the sweep, each of kGroup numbers.
 enum Field : std::size_t {
   kHeightLow,  ///< Along the sensor's up axis.
   kHeightHigh,
-  kLowA,  ///< Along the two level axes, what height can shift included.
+  kLowA,  ///< Along the two level axes, including the shift by height.
   kHighA,
   kLowB,
   kHighB,
-  kNear,             ///< The walls on the sensor's side, x, y, z.
-  kFar = kNear + 3,  ///< The other ones.
+  kNear,             ///< The walls on the sensor's side: x, y, z.
+  kFar = kNear + 3,  ///< The walls on the other side.
   kFields = kFar + 3,
 };
 constexpr std::size_t kGroupFloats = kFields * kGroup;
 
-/// Boxes of one brick from the sensor, one array a coordinate.
+/// Boxes of one brick relative to the sensor, one array per coordinate.
 struct Pieces {
   float* values;
   std::size_t capacity;
@@ -50,11 +50,11 @@ struct Pieces {
   [[nodiscard]] float* low(std::size_t axis) const { return values + axis * capacity; }
   [[nodiscard]] float* high(std::size_t axis) const { return values + (axis + 3) * capacity; }
 };
-/// A brick has at most 256 boxes, each cut into 8 at most.
+/// A brick has at most 256 boxes, each divided into at most 8.
 constexpr std::size_t kMostPieces = 2048;
 
-/// Adds a box, cut at the planes through the sensor, so that for every piece it is known which of
-/// its walls a ray can enter by.
+/// Adds a box, divided at the planes through the sensor, so that the walls through which rays enter
+/// are known for each piece.
 void add_piece(Pieces& pieces, std::array<float, 3> low, std::array<float, 3> high) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(low[k] < 0.0F && high[k] > 0.0F)) continue;
@@ -75,8 +75,8 @@ bool reaches_minimum(const Frame& frame, std::size_t brick) {
   return frame.bricks->nearest[brick] < frame.minimum_range;
 }
 
-/// Adds the boxes of a brick. Of one that reaches into the minimum range it adds the voxels, since
-/// a ray that is inside a box at the minimum range may enter its next voxel later.
+/// Adds the boxes of a brick. If the brick reaches into the minimum range, it adds the voxels,
+/// because a ray that is inside a box at the minimum range may enter its next voxel later.
 void load_boxes(const Frame& frame, std::size_t brick, Pieces& pieces) {
   const auto add = [&](const BrickBox& box) {
     std::array<float, 3> low, high;
@@ -109,7 +109,7 @@ Interval scaled(double factor, F low, F high) {
   return {hn::Min(a, b), hn::Max(a, b)};
 }
 
-/// Section "Safe bounds" of README.md: pieces i .. i + Lanes - 1 into one group.
+/// Section "Bounds" of KERNELS.md: pieces i .. i + Lanes - 1 into one group.
 void store_group(const Frame& frame, const Pieces& pieces, std::size_t i, float* group) {
   const Floats d;
   const F slack = hn::Set(d, frame.slack);

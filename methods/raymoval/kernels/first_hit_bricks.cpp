@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first part of the sweep (see README.md): which columns and rows of the grid see a brick.
+// The first part of the sweep (see KERNELS.md): the columns and rows of the grid that see a brick.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,7 +63,7 @@ F dot(const std::array<double, 3>& axis, const std::array<F, 3>& values) {
                     hn::MulAdd(number(axis[1]), values[1], hn::Mul(number(axis[2]), values[2])));
 }
 
-/// How a solid stands around the sensor's upright axis.
+/// A solid in cylindrical coordinates around the sensor's upright axis.
 struct Footprint {
   F across_x, across_y;         ///< Centre, along the sensor's x and y.
   F rho_low, rho_high;          ///< Distance from the axis.
@@ -111,7 +111,7 @@ Footprint footprint_of(const Frame& frame, const Solid& solid) {
   return foot;
 }
 
-/// Columns whose centres lie within the footprint, a little more rather than less.
+/// Columns whose centres are within the footprint, slightly enlarged.
 void find_columns(const Frame& frame, const Footprint& foot, std::size_t i) {
   const Floats d;
   const F azimuth = hn::Add(atan2_of(foot.across_y, foot.across_x), number(3.141592653589793));
@@ -136,7 +136,7 @@ F highest_tangent(F height, F rho_low, F rho_high) {
   return hn::Div(height, hn::IfThenElse(hn::Lt(height, hn::Zero(Floats())), rho_high, rho_low));
 }
 
-/// Rows whose centres lie within the heights of the solid. @return whether there is one
+/// Rows whose centres are within the heights of the solid. @return whether there is one
 hn::Mask<Floats> find_rows(const Frame& frame, const Solid& solid, const Footprint& foot,
                            std::size_t i) {
   const Floats d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The second part of the sweep (see README.md), written once for any vector width: the first hits
+// The second part of the sweep (see KERNELS.md), written once for any vector width: the first hits
 // of a column of bins from the boxes of the bricks that it sees.
 #include "methods/raymoval/kernels/first_hit_sweep.h"
 
@@ -21,15 +21,15 @@ namespace raymoval::raymoval_method::sweep {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// One bit a lane.
+/// One bit per lane.
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<Floats> mask) {
   std::uint64_t bytes = 0;
   hn::StoreMaskBits(Floats(), mask, reinterpret_cast<std::uint8_t*>(&bytes));
   return static_cast<std::uint32_t>(bytes);
 }
 
-/// One column's directions and ranges; kept small enough for the nearest cache. Only rows that are
-/// asked for are in it: its lines. They are padded to whole groups with the last one, which are
+/// One column's directions and ranges; kept small enough for the nearest cache. It has only the
+/// wanted rows, its lines. They are padded to whole groups with copies of the last line, which are
 /// never open.
 struct Column {
   F inverse_a, inverse_b;  ///< 1 / the column's horizontal direction, along the two level axes.
@@ -37,10 +37,10 @@ struct Column {
   float* depth;                         ///< The range of each line.
   const std::int32_t* row;              ///< The row of each line, ascending.
   std::size_t lines;
-  const std::uint64_t* wanted;  ///< The rows asked for, see `WantedBins`.
+  const std::uint64_t* wanted;  ///< The wanted rows, see `WantedBins`.
   const std::uint32_t* before;  ///< Lines before each word of `wanted`.
 
-  /// How many lines lie below a row.
+  /// The number of lines below a row.
   [[nodiscard]] std::size_t lines_below(std::size_t at) const {
     const std::uint64_t rest = wanted[at / 64] & ~(~std::uint64_t{0} << at % 64);
     return before[at / 64] + static_cast<std::size_t>(std::popcount(rest));
@@ -52,7 +52,7 @@ float away_from_zero(double value) {
   return static_cast<float>(std::abs(value) < kTiny ? (value < 0.0 ? -kTiny : kTiny) : value);
 }
 
-/// Lists the rows of column `i` that are asked for.
+/// Lists the wanted rows of column `i`.
 void list_lines(const Frame& frame, int i, Scratch& scratch, Column& column) {
   const hn::RebindToSigned<Floats> d;
   const std::size_t lanes = hn::Lanes(d);
@@ -128,7 +128,7 @@ Column start_column(const Frame& frame, int i, Scratch& scratch) {
 }
 
 /// Finds for each box whether the column's half plane crosses it, and the distances from the axis
-/// that belong to its lowest and its highest elevation.
+/// at its lowest and its highest elevation.
 void bound_boxes(const Column& column, const float* group, float* rho, std::uint32_t* crossing) {
   const Floats d;
   std::uint32_t bits = 0;
@@ -168,13 +168,13 @@ struct Rays {
   std::array<F, 3> inverse;  ///< 1 / direction along each axis.
 };
 
-/// Where rays enter and leave a box.
+/// Distances at which rays enter and leave a box.
 struct Crossing {
   F enter, leave;
 };
 
-/// Exact slab test of one box with a vector of rays. Only products and comparisons: every
-/// instruction set rounds alike.
+/// Exact slab test of one box with a vector of rays. It uses only products and comparisons, which
+/// all instruction sets round equally.
 HWY_INLINE Crossing cross_box(const float* box, const Rays& rays) {
   const Floats d;
   const auto at = [&](std::size_t field, std::size_t axis) {
@@ -200,7 +200,7 @@ void sweep_brick(const Frame& frame, const Column& column, const ColumnEntry& en
   std::size_t groups = 0;
   const std::size_t first = column.lines_below(entry.first_row);
   const std::size_t end = column.lines_below(entry.last_row + std::size_t{1});
-  if (first == end) return;  // None of the rows that see the brick is asked for.
+  if (first == end) return;  // None of the rows that see the brick is wanted.
   for (std::size_t line = first / lanes * lanes; line < end; line += lanes) {
     F depth = hn::Load(d, column.depth + line);
     if (hn::AllFalse(d, hn::Gt(depth, nearest))) continue;
@@ -250,7 +250,7 @@ void prepare_scratch(const Frame& frame, Scratch& scratch) {
   scratch.pieces.require(6 * kMostPieces);
   scratch.bounds.require(2 * kMostPieces);
   scratch.crossing.resize(kMostPieces / kGroup);
-  scratch.row.require(rows + kGroup);  // Vectors are stored beyond what they hold.
+  scratch.row.require(rows + kGroup);  // Vectors are stored beyond the end.
   scratch.before.resize(frame.wanted->words_a_column());
   scratch.directions.require(3 * rows);
   scratch.depth.require(rows);

@@ -12,10 +12,10 @@
 
 namespace raymoval::raymoval_method::sweep {
 
-/// Boxes are expanded in groups of this many, whatever the vector width.
+/// Boxes are expanded in groups of this size, for any vector width.
 inline constexpr std::size_t kGroup = 16;
 
-/// The tables that depend on the grid of directions only.
+/// Tables that depend only on the grid of directions.
 struct GridTables {
   int columns = 0, rows = 0;
   int padded_rows = 0;  ///< Rows rounded up to a multiple of kGroup.
@@ -49,7 +49,7 @@ class WallTables {
   /// First and last voxel within the range.
   [[nodiscard]] const Eigen::Vector3i& low() const { return low_; }
   [[nodiscard]] const Eigen::Vector3i& high() const { return high_; }
-  /// Where the walls of a brick begin; it has a voxel within low .. high.
+  /// The index of the first wall of a brick; the brick has a voxel within low .. high.
   [[nodiscard]] std::int32_t brick_offset(Eigen::Index axis, std::int32_t brick) const {
     return brick * OccupancyMap::kBrickSide - first_[axis];
   }
@@ -59,16 +59,16 @@ class WallTables {
   Eigen::Vector3i low_, high_, first_;
 };
 
-/// Bricks within reach of the sensor, one array a property, padded to a multiple of kGroup.
+/// Bricks within reach of the sensor, one array per property, padded to a multiple of kGroup.
 struct BrickList {
   std::size_t count = 0;
   std::array<AlignedArray<float>, 3> low, high;  ///< Tight box from the sensor, world axes, metres.
-  std::array<AlignedArray<std::int32_t>, 3> plane;  ///< Where the brick's walls are in the tables.
+  std::array<AlignedArray<std::int32_t>, 3> plane;  ///< Index of the brick's walls in the tables.
   AlignedArray<OccupancyMap::Slot> slot;
   // Found by measure_bricks; a brick in no column has first_column > last_column.
   AlignedArray<float> nearest;  ///< No ray enters it nearer than this.
   AlignedArray<std::int32_t> first_column,
-      last_column;  ///< They may lie below 0 or beyond the last.
+      last_column;  ///< May be below 0 or beyond the last column.
   AlignedArray<std::int32_t> first_row, last_row;
 
   void require(std::size_t bricks);
@@ -80,7 +80,7 @@ struct Frame {
   const GridTables* grid = nullptr;
   const WantedBins* wanted = nullptr;
   BrickList* bricks = nullptr;
-  std::vector<std::uint32_t>* order = nullptr;  ///< The bricks that are seen, the nearest first.
+  std::vector<std::uint32_t>* order = nullptr;  ///< The visible bricks, nearest first.
   /// World coordinates of the sensor's axes.
   std::array<double, 3> x_axis{}, y_axis{}, up{};
   std::array<int, 2> level_axes{};       ///< The two world axes that are the least upright.
@@ -100,15 +100,14 @@ struct ColumnEntry {
 /// Bricks seen in the columns begin .. end - 1, nearest first.
 struct ColumnLists {
   int begin = 0, end = 0;
-  std::vector<std::uint32_t>
-      starts;  ///< Where each column's entries begin, and the end of the last.
+  std::vector<std::uint32_t> starts;  ///< First entry of each column, and the end of the last.
   std::vector<ColumnEntry> entries;
 };
 
 /// Memory of one thread's sweep, kept between images.
 struct Scratch {
   std::uint64_t frame = 0;  ///< The image it is prepared for.
-  /// Where the boxes of a brick were expanded to, and how many there are.
+  /// The expanded boxes of a brick: place and number.
   struct Expanded {
     std::uint32_t begin = 0;
     std::uint32_t boxes = 0;
@@ -120,19 +119,19 @@ struct Scratch {
   AlignedArray<float> pieces;  ///< Boxes of one brick, cut at the sensor's planes.
   AlignedArray<float> bounds;  ///< The bounds of one brick's boxes in one column.
   std::vector<std::uint32_t> crossing;
-  // One column's lines, which are its rows that are asked for.
+  // One column's lines, which are its wanted rows.
   AlignedArray<std::int32_t> row;     ///< The row of each line.
   std::vector<std::uint32_t> before;  ///< Lines before each word of the column's wanted bins.
   AlignedArray<float> directions;     ///< Inverse directions.
   AlignedArray<float> depth;          ///< Ranges.
 };
 
-/// Fills the properties that `BrickList` lists as found for the bricks begin .. end - 1; `begin` is
-/// a multiple of kGroup, and so is `end` or it is the end of the list.
+/// Fills the measured properties of `BrickList` for the bricks begin .. end - 1. `begin` and `end`
+/// are multiples of kGroup; `end` may also be the end of the list.
 void measure_bricks(const Frame& frame, std::size_t begin, std::size_t end);
 
-/// First hits of columns begin .. end - 1, which are all in `lists`, into `range` (row by row, all
-/// columns), where they are wanted.
+/// Writes the wanted first hits of columns begin .. end - 1, which are all in `lists`, to `range`
+/// (row by row, all columns).
 void sweep_columns(const Frame& frame, const ColumnLists& lists, int begin, int end,
                    Scratch& scratch, float* range);
 

@@ -54,7 +54,7 @@ bool OccupancyMap::contains_near(const VoxelIndex& voxel, int dilation) const {
 }
 
 void OccupancyMap::update_boxes(int threads) {
-  if (changed_.empty()) return;  // Nothing is written: several threads may read the map.
+  if (changed_.empty()) return;  // No writes: several threads may read the map.
   parallel_for(threads, changed_.size(), 32, [&](std::size_t i) {
     const Slot slot = changed_[i];
     cover_with_boxes(bricks_[slot], boxes_[slot]);

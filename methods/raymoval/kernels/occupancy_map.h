@@ -19,7 +19,7 @@ struct Brick {
 
   std::array<std::uint64_t, kSide> occupied{};
 
-  /// Coordinates may be those of the world's lattice.
+  /// Coordinates may be relative to the brick or those of the world's lattice.
   [[nodiscard]] bool contains(int x, int y, int z) const {
     return (occupied[static_cast<std::size_t>(x & kMask)] & bit(y, z)) != 0;
   }
@@ -29,7 +29,7 @@ struct Brick {
   }
 };
 
-/// Box of voxels within a brick in 18 bits: first and last voxel (inclusive), 3 bits an axis.
+/// Box of voxels within a brick in 18 bits: first and last voxel (inclusive), 3 bits per axis.
 struct BrickBox {
   std::uint32_t packed = 0;
 
@@ -49,18 +49,17 @@ struct BrickBox {
   }
 };
 
-/// Boxes that together hold each occupied voxel of `brick` and no empty one; they may overlap. A
-/// ray meets the boxes first where it meets the voxels first, and there are about five times fewer
-/// of them. Greedy: from the lowest voxel that is in no box yet, the voxel and the run of voxels
-/// above and below it are grown over occupied voxels in either order of axes, and the box that
-/// covers more of what is not covered yet is kept.
+/// Boxes that together hold each occupied voxel of `brick` and no empty one; they may overlap. The
+/// first hit of a ray is the same for boxes and voxels, and there are about five times fewer boxes.
+/// Greedy: the lowest voxel without a box and the run of voxels above and below it are grown over
+/// occupied voxels in either order of axes. The box that covers more uncovered voxels is kept.
 /// @param boxes replaced
 void cover_with_boxes(const Brick& brick, std::vector<BrickBox>& boxes);
 
-/// The smallest box that holds all occupied voxels of a brick that has one.
+/// The smallest box with all occupied voxels of a brick, which must not be empty.
 BrickBox tight_box(const Brick& brick);
 
-/// Voxels of a brick that lie within a box of the lattice.
+/// Voxels of a brick that are within a box of the lattice.
 struct BrickPart {
   int first_word, last_word;
   std::uint64_t mask;  ///< The voxels of the box in each of these words.
@@ -81,9 +80,9 @@ struct BrickPart {
 /// Occupied voxels in sparse bricks of 8 x 8 x 8, one bit each. Insert, erase and look-up take
 /// constant time; memory grows with the occupied part only (`memory_bytes`).
 ///
-/// For the raycasting each brick also keeps boxes that cover its voxels, and each
-/// tile of 8 x 8 bricks seen from above has a list of its bricks. The boxes of changed bricks are
-/// made anew by `update_boxes`, at a cost that depends on what changed and not on the map.
+/// For the raycasting each brick also keeps boxes that cover its voxels, and each tile of 8 x 8
+/// bricks seen from above has a list of its bricks. `update_boxes` rebuilds the boxes of changed
+/// bricks, at a cost that depends on the changes and not on the map.
 class OccupancyMap {
  public:
   static constexpr int kBrickBits = Brick::kBits;
@@ -92,12 +91,12 @@ class OccupancyMap {
   using Slot = std::uint32_t;          ///< Number of a brick, in order of creation.
   static constexpr Slot kNoBrick = ~Slot{0};
 
-  /// What the raycasting looks at before it looks into a brick.
+  /// The data of a brick that the raycasting reads first.
   struct BrickHead {
     std::array<std::int32_t, 3> at{};  ///< Brick coordinates: voxel coordinates / 8, rounded down.
     Slot slot = 0;
     BrickBox bounds;       ///< Tight box of its voxels.
-    bool is_empty = true;  ///< No voxel is left in it.
+    bool is_empty = true;  ///< It has no voxel.
   };
 
   explicit OccupancyMap(double voxel_size)
@@ -145,12 +144,12 @@ class OccupancyMap {
     const auto found = index_.find(voxel_key(brick));
     return found == index_.end() ? kNoBrick : found->second;
   }
-  /// The number of a brick, which is made if it is not there.
+  /// The number of a brick, which is made if it is missing.
   Slot make_brick(const Eigen::Vector3i& brick);
   [[nodiscard]] const Brick& brick(Slot slot) const { return bricks_[slot]; }
 
-  /// Brings boxes and heads of the bricks changed since the last call up to date; writes nothing if
-  /// there are none.
+  /// Updates boxes and heads of the bricks changed since the last call; writes nothing if there are
+  /// none.
   void update_boxes(int threads);
   /// Boxes that cover the brick's voxels, as of the last `update_boxes`.
   [[nodiscard]] std::span<const BrickBox> boxes(Slot slot) const { return boxes_[slot]; }

@@ -8,8 +8,8 @@
 namespace raymoval::raymoval_method {
 namespace {
 
-/// An upper bound of the distance between two voxels, in voxels: the walk's, whatever the limits
-/// are.
+/// An upper bound of the distance between two voxels, in voxels, which limits the walk for any
+/// range limits.
 constexpr double kLatticeDiagonal = 2.0 * 1.7320509 * kVoxelBias;
 
 /// Walks a ray from cell to cell. Distances are in cells (a ray of unit direction in voxel units).
@@ -23,8 +23,8 @@ class Walk {
       // Bounded, so that 0 times it is 0: a ray this flat that starts on a wall crosses it at once.
       inverse_[axis] = direction[k] == 0.0 ? 0.0 : std::clamp(1.0 / direction[k], -1e300, 1e300);
       step_[axis] = direction[k] > 0.0 ? 1 : (direction[k] < 0.0 ? -1 : 0);
-      // A ray along the negative axis that starts on a wall is in the lower cell at once, but for
-      // the start itself.
+      // A ray along the negative axis that starts on a wall is in the lower cell at once, except at
+      // its start.
       next_[axis] = exit_distance(axis);
       if (from > 0.0) distance_ = std::max(distance_, enter_distance(axis));
     }
@@ -43,7 +43,7 @@ class Walk {
     if (step_[axis] == 0) return std::numeric_limits<double>::infinity();
     return distance_to(axis, step_[axis] > 0 ? cell_[axis] + 1 : cell_[axis]);
   }
-  /// Distance at which it entered that cell.
+  /// Distance at which it entered its cell along an axis.
   [[nodiscard]] double enter_distance(std::size_t axis) const {
     if (step_[axis] == 0) return 0.0;
     return distance_to(axis, step_[axis] > 0 ? cell_[axis] : cell_[axis] + 1);
@@ -69,7 +69,7 @@ std::optional<FirstHit> cast_ray(const OccupancyMap& map, const Ray& ray, const 
                                  double from) {
   const double scale = map.inverse_voxel_size();
   const double nearest = limits.minimum_range * scale;
-  // No voxel of the map lies beyond the lattice, so that no ray has to go on there.
+  // No voxel of the map is beyond the lattice, so rays end there.
   const double farthest = std::min(limits.maximum_range * scale, kLatticeDiagonal);
   Walk walk(ray.origin * scale, ray.direction, from * scale);
   for (; walk.distance() <= farthest; walk.step_voxel()) {

@@ -53,7 +53,7 @@ HWY_INLINE F atan2_of(F y, F x) {
   return hn::CopySign(hn::IfThenElse(hn::Lt(x, hn::Zero(d)), turned, angle), y);
 }
 
-/// The bin that an angle lies in, found in single precision, and whether that may be the wrong one.
+/// The bin of an angle, found in single precision, and whether it may be wrong.
 struct Bin {
   F number;
   hn::Mask<Floats> close_call;
@@ -67,11 +67,11 @@ HWY_INLINE Bin bin_at(F angle, double bins_per_radian, int bins) {
   const F bin = hn::Floor(coordinate);
   const F part = hn::Sub(coordinate, bin);
   const F last = hn::Sub(hn::Set(d, 1.0F), tolerance);
-  // What is not a number is a close call, too.
+  // NaN is a close call, too.
   return {bin, hn::Not(hn::And(hn::Gt(part, tolerance), hn::Lt(part, last)))};
 }
 
-/// The ranges of some points, found in double and rounded once, and by how much each is beyond the
+/// The ranges of some points, computed in double and rounded once, and the excess of each over the
 /// minimum range.
 HWY_INLINE void find_ranges(const Projection& job, const float* x, const float* y, const float* z,
                             std::size_t lanes, float* range, float* margin) {

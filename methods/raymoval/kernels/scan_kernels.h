@@ -21,7 +21,7 @@ struct Projection {
   std::int32_t* bin = nullptr;  ///< kNoBin, kCloseCall or the number.
 };
 inline constexpr std::int32_t kNoBin = -1;
-/// The point is so near to a border that roundings decide: to be computed as the formula says.
+/// The point is so near to a border that rounding decides: it must be computed by the formula.
 inline constexpr std::int32_t kCloseCall = -2;
 
 /// Voxels of points in the world.
@@ -30,7 +30,7 @@ struct Voxelisation {
   std::array<double, 9> rotation{};  ///< Row by row.
   std::array<double, 3> translation{};
   double inverse_voxel_size = 0.0;
-  double limit = 0.0;              ///< Largest magnitude of an index.
+  double limit = 0.0;              ///< Largest absolute index.
   std::int32_t* voxels = nullptr;  ///< x y z of each point.
 };
 

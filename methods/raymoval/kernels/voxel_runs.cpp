@@ -38,7 +38,7 @@ void find_part(const Scan& scan, kernels::Voxelisation job, std::size_t begin, s
   job.points += 3 * begin;
   job.voxels = part.of_points.front().data();
   const bool on_lattice = kernel.voxelise(job, 0, whole);
-  // If one of them is beyond the lattice, its error says where.
+  // If one of them is beyond the lattice, this throws the error with its position.
   for (std::size_t k = on_lattice ? whole : 0; k < count; ++k) {
     const Eigen::Vector3d world = scan.T_world_sensor * scan.points[begin + k].cast<double>();
     part.of_points[k] = voxel_index(world, job.inverse_voxel_size);
@@ -76,7 +76,7 @@ void find_voxels(const Scan& scan, double inverse_voxel_size, int threads, Voxel
 
 Mask runs_within(const VoxelRuns& runs, const Mask& points) {
   Mask within(runs.size(), 0);
-  std::size_t run = 0, left = 0;  // Points of the run that were not seen in the mask yet.
+  std::size_t run = 0, left = 0;  // Points of the run that are not yet found in the mask.
   for_each_set(points, [&](std::size_t k) {
     if (k >= runs.first[run + 1] || left == 0) {
       const auto next = std::upper_bound(runs.first.begin(), runs.first.end(), k);

@@ -10,14 +10,14 @@
 
 namespace raymoval::raymoval_method {
 
-/// The voxels of a scan's points. Points that follow each other often share a voxel; they are one
-/// run, so that a voxel is looked at once and not once a point.
+/// The voxels of a scan's points. Consecutive points often share a voxel; they are one run, so that
+/// a voxel is processed once per run and not once per point.
 struct VoxelRuns {
   std::vector<VoxelIndex> voxels;    ///< The voxel of each run.
   std::vector<std::uint32_t> first;  ///< The first point of each run, then the number of points.
 
   [[nodiscard]] std::size_t size() const { return voxels.size(); }
-  /// What each point has, if this is what each run has.
+  /// Values by point from values by run.
   template <class Value>
   [[nodiscard]] std::vector<Value> of_points(const std::vector<Value>& of_runs) const {
     std::vector<Value> values;
@@ -28,7 +28,7 @@ struct VoxelRuns {
     return values;
   }
 
-  /// What one thread finds in a part of the scan, kept for its memory.
+  /// The results of one thread for a part of the scan, kept for their memory.
   struct Part {
     std::vector<VoxelIndex> of_points, of_runs;
     std::vector<std::uint32_t> first;
@@ -37,7 +37,7 @@ struct VoxelRuns {
 };
 
 /// Finds the voxel of each point in the world lattice. Runs also end every few thousand points, at
-/// places that depend on nothing but the number of points.
+/// places that depend only on the number of points.
 /// @param runs replaced; its memory is used again
 /// @throws DataError as `voxel_index`
 void find_voxels(const Scan& scan, double inverse_voxel_size, int threads, VoxelRuns& runs);
@@ -53,7 +53,7 @@ void for_each_set(const Mask& mask, Visit&& visit) {
   }
 }
 
-/// 1 for each run all of whose points have a 1 in `points`.
+/// 1 for each run whose points all have a 1 in `points`.
 Mask runs_within(const VoxelRuns& runs, const Mask& points);
 
 }  // namespace raymoval::raymoval_method

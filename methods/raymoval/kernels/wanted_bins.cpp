@@ -7,9 +7,9 @@
 namespace raymoval::raymoval_method {
 namespace {
 
-/// Sets the neighbours of all bits that are set.
+/// Sets the neighbours of all set bits.
 void widen(std::span<std::uint64_t> words) {
-  std::uint64_t before = 0;  // The word before, as it was.
+  std::uint64_t before = 0;  // The original previous word.
   for (std::size_t w = 0; w < words.size(); ++w) {
     const std::uint64_t here = words[w];
     const std::uint64_t after = w + 1 < words.size() ? words[w + 1] : 0;
@@ -18,7 +18,7 @@ void widen(std::span<std::uint64_t> words) {
   }
 }
 
-/// Clears the bits from `rows` on, of which there is at least one.
+/// Clears the bits from `rows` on; there is at least one.
 void cut(std::span<std::uint64_t> words, std::size_t rows) {
   words.back() &= ~(~std::uint64_t{0} << rows % 64);
 }

@@ -9,18 +9,18 @@
 
 namespace raymoval::raymoval_method {
 
-/// The bins of a grid whose first hits are asked for, one bit each, column by column.
+/// The wanted bins of a grid, whose first hits are required: one bit each, column by column.
 class WantedBins {
  public:
-  /// Asks for all bins.
+  /// Marks all bins as wanted.
   void ask_for_all(const AngularGrid& grid);
-  /// Asks for the bins within `radius` columns and rows of each bin where `values` is finite. The
+  /// Marks the bins within `radius` columns and rows of each bin where `values` is finite. The
   /// azimuth wraps around.
-  /// @param values one a bin of `grid`
+  /// @param values one per bin of `grid`
   void ask_around(const std::vector<float>& values, const AngularGrid& grid, int radius);
 
-  /// The rows asked for in column `i`: bit j % 64 of word j / 64 is row j. There is a bit for the
-  /// row after the last, which is never set.
+  /// The wanted rows of column `i`: bit j % 64 of word j / 64 is row j. The bit after the last row
+  /// exists and is never set.
   [[nodiscard]] const std::uint64_t* column(int i) const {
     return columns_.data() + static_cast<std::size_t>(i) * words_;
   }
