@@ -96,7 +96,7 @@ SequenceRequest absolute_place(const SequenceRequest& place) {
     std::error_code error;
     const auto made = std::filesystem::absolute(path, error);
     if (!error) return made.lexically_normal();
-    throw DataError(path.string() + ": where it is cannot be told (" + error.message() + ").");
+    throw DataError(path.string() + ": cannot be made absolute (" + error.message() + ").");
   };
   if (!is_built_in(place.path)) absolute.path = make_absolute(place.path).string();
   SequenceOptions& options = absolute.options;

@@ -28,7 +28,7 @@ expect 2 "points-in-millimetres: points of all scans read: half of the points" \
   clean millimetres -o map.pcd --labels labels_out --quiet
 cp err.txt said.txt
 holds "the remedy is said" grep -q "Multiply the coordinates by 0.001." said.txt
-holds "and how to go on" grep -q -- "--force cleans all the same" said.txt
+holds "and how to go on" grep -q -- "--force cleans it nevertheless" said.txt
 nothing_left "a refusal"
 
 # Poses of a camera read as the LiDAR's.
@@ -36,7 +36,7 @@ cp -r drive frames
 sed -i 's/"poses"/"poses_are_lidar": true, "poses"/' frames/sequence.json
 expect 2 "camera-frame: poses.txt" clean frames -o map.pcd --quiet
 nothing_left "a refusal of poses"
-expect 0 "warning: going on because of --force, in spite of camera-frame" \
+expect 0 "warning: continuing because of --force, in spite of camera-frame" \
   clean frames "${online[@]}" -o forced.pcd --force
 expect 0 "poses-inverted: poses take the world to the sensor (T_sensor_world). (clean refuses it)" \
   inspect --list
@@ -126,7 +126,7 @@ expect 2 "more than 10,000 tiles of 0.001 m, which is the limit of a map. Choose
 holds "no folder of tiles is left" test ! -e tiny
 
 # How sure the method is stands behind the other fields of each map, and changes nothing else.
-expect 2 "raymoval does not tell how sure it is" clean drive "${online[@]}" -o sure.pcd --confidence
+expect 2 "raymoval has no confidence" clean drive "${online[@]}" -o sure.pcd --confidence
 expect 2 "--confidence has no effect" clean drive --labels sure --confidence
 sure=(--method octomap --quiet)
 expect 0 "" clean drive "${sure[@]}" -o unsure.pcd

@@ -63,7 +63,7 @@ struct Description {
 
 /// How the source of a value is called that its author chose.
 std::string source_text(const ParameterSpec& spec) {
-  return spec.notes.source.empty() ? "own choice" : spec.notes.source;
+  return spec.notes.source.empty() ? "chosen here" : spec.notes.source;
 }
 
 std::string range_text(const ParameterSpec& spec) {
