@@ -72,7 +72,7 @@ void check_topics(const Layout& layout, const std::string& path, const SequenceO
 void check_label_rule(const Sequence& sequence, const SequenceOptions& options) {
   if (!options.label_rule || is_rule_file(*options.label_rule) || sequence.moving_now) return;
   throw UsageError("--label-rule moving-now cannot be used on sequence " + sequence.name + ": " +
-                   (sequence.labels ? "its labels do not say who moves when" : "it has no labels") +
+                   (sequence.labels ? "its labels have no times of motion" : "it has no labels") +
                    ". Leave it out.");
 }
 

@@ -31,8 +31,8 @@ void unite(const std::vector<Spec>& specs, const std::string& protocol, std::vec
       all.push_back(spec);
     } else if (!(*known == spec)) {
       throw ConfigurationError(
-          fmt::format("protocol {} says something else of '{}' than an earlier protocol does. Use "
-                      "the same description, or another name.",
+          fmt::format("protocol {} describes '{}' differently from an earlier protocol. Use the "
+                      "same description, or another name.",
                       protocol, spec.name));
     }
   }

@@ -50,16 +50,16 @@ Descriptor opened_folder(const std::filesystem::path& folder) {
   Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.valid() || errno == EACCES) return opened;
   throw DataError(folder.string() + ": cannot be opened (" + reason_text(errno) +
-                  "), so that nothing can be put on the disk there.");
+                  "), so files in it cannot be synchronised to the disk.");
 }
 
 void sync_names(const Descriptor& opened, const std::filesystem::path& folder) {
   if (!opened.valid() || ::fsync(opened.get()) == 0) return;
   // A file system that cannot do this has its own ways.
   if (errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return;
-  throw DataError(folder.string() + ": the names in it cannot be put on the disk (" +
+  throw DataError(folder.string() + ": it cannot be synchronised to the disk (" +
                   reason_text(errno) +
-                  "). What was written there may be gone when the machine stops. Check the disk.");
+                  "). New files in it may be lost if the machine stops. Check the disk.");
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ LabelRule with_unlabelled_ignored(LabelRule rule) {
   if (std::find(rule.moving.begin(), rule.moving.end(), unlabelled) != rule.moving.end()) {
     throw ConfigurationError(
         "label rule '" + rule.name + "': label id 0 moves, but in " + kIndexedLabelsFile +
-        " it stands for scans that nobody labelled; leave it out, or add it to \"ignored\".");
+        " it means scans without labels; leave it out, or add it to \"ignored\".");
   }
   const auto place = std::lower_bound(rule.ignored.begin(), rule.ignored.end(), unlabelled);
   if (place == rule.ignored.end() || *place != unlabelled) rule.ignored.insert(place, unlabelled);

@@ -62,8 +62,8 @@ std::string conversion_text(const std::filesystem::path& path) {
   };
   static const std::map<std::string, std::string> texts = {
       {".laz",
-       "LAZ, compressed LAS, is not read or written. Unpack it first: laszip -i in.laz -o out.las, "
-       "or pdal translate in.laz out.las."},
+       "LAZ, compressed LAS, is not read or written. Decompress it first: laszip -i in.laz -o "
+       "out.las, or pdal translate in.laz out.las."},
       {".e57", "E57 is not read. " + each_scan("e57")},
       {".ptx", "PTX is not read. " + each_scan("ptx")},
       {".pts", "PTS is not read. " + each_scan("pts")},

@@ -54,7 +54,7 @@ class PcdHeaderParser {
       }
       if (name == "COLUMNS") name = "FIELDS";
       if (!entries_.emplace(name, std::vector(words.begin() + 1, words.end())).second) {
-        lines_.fail(name + " stands there twice.");
+        lines_.fail(name + " occurs twice.");
       }
     } while (!entries_.contains("DATA"));
   }

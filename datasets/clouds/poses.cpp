@@ -122,10 +122,10 @@ Pose read_calibration(const std::filesystem::path& path, const std::string& key)
     pose = rigid_pose(kitti_matrix(numbers), where);
   });
   if (pose) return *pose;
-  throw DataError(path.string() + ": has no row '" + key + ":' (LiDAR to camera); found " +
-                  (found.empty() ? "no row" : join(found)) +
-                  ". If the poses are those of the LiDAR, say \"poses_are_lidar\": true in "
-                  "sequence.json.");
+  throw DataError(
+      path.string() + ": has no row '" + key + ":' (LiDAR to camera); found " +
+      (found.empty() ? "no row" : join(found)) +
+      ". If the poses are those of the LiDAR, set \"poses_are_lidar\": true in sequence.json.");
 }
 
 }  // namespace raymoval

@@ -38,7 +38,7 @@ expect 2 "camera-frame: poses.txt" clean frames -o map.pcd --quiet
 nothing_left "a refusal of poses"
 expect 0 "warning: continuing because of --force, in spite of camera-frame" \
   clean frames "${online[@]}" -o forced.pcd --force
-expect 0 "poses-inverted: poses take the world to the sensor (T_sensor_world). (clean refuses it)" \
+expect 0 "poses-inverted: poses transform from the world to the sensor (T_sensor_world). (clean refuses it)" \
   inspect --list
 expect 0 "few-points: a scan has far fewer points than those around it. (clean warns)" inspect --list
 
@@ -69,12 +69,12 @@ holds "labels tell what is beyond" test "$(words near | grep ^9:)" = "9:$points"
 holds "by 0" grep -q "^0:[1-9]" <(words near)
 
 # --drop-ego: no method sees these points, and no output has them.
-expect 0 "of the own vehicle (nearer than 6 m) and are left out." clean street --frames 0:2 \
+expect 0 "on the ego vehicle (nearer than 6 m) and are left out." clean street --frames 0:2 \
   --method remove-all --quiet --drop-ego 6 -o ego.pcd --labels ego
 holds "labels tell what was dropped" grep -q "^0:[1-9]" <(words ego)
-expect 2 "--drop-ego 'car' says no part" clean street --drop-ego car -o map.pcd
+expect 2 "--drop-ego 'car' is not a region" clean street --drop-ego car -o map.pcd
 expect 0 "street: " run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 --method noop --out run
-holds "run says it once" test "$(grep -c 'of the own vehicle (in the box' err.txt)" -eq 1
+holds "run says it once" test "$(grep -c 'on the ego vehicle (in the box' err.txt)" -eq 1
 holds "the record has it" grep -q '"left_out": "-9:9,-3:3,:-1"' run/cells/street/noop-default/cell.json
 expect 0 "All controls" run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 \
   --method comb --set comb.milliseconds=0 --keep-removals --quiet --out run

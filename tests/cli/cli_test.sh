@@ -506,7 +506,7 @@ expect 2 "no such run folder" picture nowhere -o map.png --overwrite
 expect 2 "Did you mean 'overview'" picture shown -o map.png --overwrite --kind overvew
 expect 2 ".svg" picture shown -o map.jpg --kind stages
 expect 2 "--only" picture shown -o map.png --overwrite --method raymoval:online
-expect 2 "--crop goes with --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
+expect 2 "--crop needs --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
 expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --overwrite --crop 5:1:0:1 --quiet
 expect 2 "--crop 1000:2000:1000:2000: no point lies there" \
   picture shown -o map.png --overwrite --crop 1000:2000:1000:2000 --quiet

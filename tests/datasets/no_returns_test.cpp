@@ -92,7 +92,7 @@ TEST_CASE("a scan may be without a return, and infinite points are damage", "[no
   write_scan(infinite, {kInfinity, 0, 0, 0, 1, 0, 0, 0});
   const Sequence damaged = open_sequence(infinite.text(), {});
   check_says(message_of<DataError>([&] { (void)damaged.scans->load(0); }),
-             {"1 of 2 points are infinite", "write NaN"});
+             {"1 of 2 points are infinite", "as NaN"});
 }
 
 TEST_CASE("nothing is said where nothing is left out", "[no-returns]") {

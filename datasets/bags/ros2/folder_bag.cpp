@@ -105,7 +105,7 @@ void check_packing(const YAML::Node& information, const fs::path& path) {
   const std::string format = lower(value_of(information, "compression_format"));
   if (mode.empty() || mode == "none" || mode == "~" || mode == "null") return;
   if (format != "zstd") {
-    throw UsageError(path.string() + ": the recording is packed by '" + format +
+    throw UsageError(path.string() + ": the recording is compressed by '" + format +
                      "', which is not read; expected zstd. `ros2 bag convert` writes it anew.");
   }
   if (mode == "file" || mode == "message") return;

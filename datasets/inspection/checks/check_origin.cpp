@@ -20,7 +20,7 @@ constexpr double kFound = 0.56, kGain = 0.06;
 /// @param given what a user says already @param right the origin in the frame of the stored points
 std::string remedy_of(const Eigen::Vector3d& given, const Eigen::Vector3d& right) {
   if (right.norm() < kNear && !given.isZero()) return "Leave --sensor-origin out.";
-  return fmt::format("Say --sensor-origin {},{},{}.", fixed_text(right.x(), 2),
+  return fmt::format("Use --sensor-origin {},{},{}.", fixed_text(right.x(), 2),
                      fixed_text(right.y(), 2), fixed_text(right.z(), 2));
 }
 
@@ -53,7 +53,7 @@ std::vector<Finding> look_for_ray_origin(Samples& samples) {
 std::vector<Check> origin_checks() {
   return {{"beams-start-elsewhere", "points are in the frame of a vehicle, not of the sensor",
            "points whose origin is the sensor, where the beams start",
-           "Say --sensor-origin with the position of the sensor in the frame of the points.",
+           "Use --sensor-origin with the position of the sensor in the frame of the points.",
            look_for_ray_origin, Consequence::kRefused}};
 }
 

@@ -81,8 +81,8 @@ bool in_camera_axes(Samples& samples) {
 void look_at_axes(Samples& samples, PoseVerdict& verdict) {
   if (verdict.check != "lidar-poses-as-camera" || !in_camera_axes(samples)) return;
   verdict.what =
-      "the ground lies along +y of the points: they stand in camera axes (x right, y down, z "
-      "ahead), but the poses do not";
+      "the ground lies along +y of the points: they are in camera axes (x right, y down, z ahead), "
+      "but the poses do not";
   verdict.check = "camera-frame";
 }
 
@@ -142,8 +142,8 @@ std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
       hypothesis.remedy = "Say --T-sensor " + mounting_text(mount) + ".";
       if (mount.translation().isZero()) {
         hypothesis.remedy +=
-            " The sensor turns too little to tell its position on the body; put "
-            "it in place of the zeros if you know it.";
+            " The sensor turns too little to estimate its position on the body; replace the zeros "
+            "if you know it.";
       }
     }
     all.push_back(std::move(hypothesis));
@@ -214,7 +214,7 @@ PoseVerdict compare_hypotheses(Samples& samples) {
   if (!fit.says_something() || given >= kGood) return {};
   const auto [best, reached] = best_hypothesis(samples, fit, hypotheses);
   samples.measures.emplace_back("agreement_of_best_hypothesis", reached);
-  const std::string now = "the scans agree to " + percent(given) + " under the poses";
+  const std::string now = "the scans fit to " + percent(given) + " under the poses";
   if (reached >= kNamed && reached > given + kBetter) {
     return {best.check, now + " and to " + percent(reached) + " " + best.phrase, best.remedy};
   }

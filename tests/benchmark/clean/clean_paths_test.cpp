@@ -83,7 +83,7 @@ TEST_CASE("What the system cannot look at is not taken for absent") {
   CHECK_FALSE(identity_of(file / "below a file"));
   test::make_unreadable(file);
   CHECK_THROWS_AS(identity_of(file), UnreadableError);
-  CHECK_THROWS_WITH(identity_of(file), Contains("map.pcd: cannot be looked at ("));
+  CHECK_THROWS_WITH(identity_of(file), Contains("map.pcd: cannot be accessed ("));
 }
 
 TEST_CASE("Outputs do not stand in each other's place") {
