@@ -279,7 +279,7 @@ TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
     add_clouds(bag);
     bag.tf(101, "odom", "base", shift(nan));
     check_says(data_error_of(bag), {"diverged.bag: tf", "no pose of frame base in odom",
-                                    "no rigid motion", "--pose-topic", "--poses"});
+                                    "not a rigid motion", "--pose-topic", "--poses"});
   }
   {
     // One of four that cannot be used is told as a loss, and stands with the result.
@@ -292,7 +292,7 @@ TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
     CHECK(position(sequence, 1).isApprox(Eigen::Vector3d(3, 0, 0), 1e-9));
     REQUIRE(sequence.losses.size() == 1);
     check_says(sequence.losses[0],
-               {"once.bag: tf: 1 message could not be used", "no rigid motion"});
+               {"once.bag: tf: 1 message could not be used", "not a rigid motion"});
     CHECK(sequence.record().losses == sequence.losses);
   }
   {

@@ -200,9 +200,9 @@ TEST_CASE("arrays of matrices are read", "[trajectories]") {
   }
   check_quarter(read("poses.npy", npy("(2, 3, 4)", rows_first, "True")), "npy", 1);
   check_quarter(read("poses.npy", npy("(2, 12)", columns, "True")), "npy", 1);
-  check_says(error_of(npy("(2, 4, 4)", pose), {}, "p.npy"), {"2 poses", "bytes of 1", "truncated"});
+  check_says(error_of(npy("(2, 4, 4)", pose), {}, "p.npy"), {"2 poses", "bytes for 1", "truncated"});
   check_says(error_of(npy("(4, 4)", pose), {}, "p.npy"), {"an array of 4 x 4"});
-  check_says(error_of(npy("(1000000000, 4, 4)", pose), {}, "p.npy"), {"bytes of 1"});
+  check_says(error_of(npy("(1000000000, 4, 4)", pose), {}, "p.npy"), {"bytes for 1"});
   check_says(error_of(npy("(1000000000000, 4, 4)", pose), {}, "p.npy"), {"no count"});
   check_says(error_of("\x93NUMPY\x01", {}, "p.npy"), {"p.npy: is no .npy file"});
 }
