@@ -49,11 +49,11 @@ void add_tests(Table& table) {
               {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range."})
       .number("erase_height", &P::erase_height,
               {"voxels", 0, 10, kOurs,
-               "The ray must have changed its height by this much between the first hit and the "
-               "return behind it; less may be one surface seen at a grazing angle."})
+               "Minimum change of the ray's height between the first hit and the return behind it; "
+               "with less, both may be on one surface at a grazing angle."})
       .number("erase_height_limit", &P::erase_height_limit,
               {"m", 0, 100, kOurs,
-               "Beyond this distance behind the first hit no change of height is asked for.",
+               "Beyond this distance behind the first hit no change of height is required.",
                "erase_height > 0"})
       .number("erase_percentile", &P::erase_percentile,
               {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
@@ -99,7 +99,7 @@ void add_validation_and_answer(Table& table) {
                "A thin group covered at least this much is static; above 1: never.",
                "validate is true and coverage_static > 0"})
       .number("thin_side", &P::thin_side,
-              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group this thin is thin.",
+              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group at most this thick is thin.",
                "validate is true and coverage_edge <= 1"})
       .integer("support_dilation", &P::support_dilation,
                {"voxels", 0, 5, "section 3, 'unsupported points' (no value)",
@@ -136,10 +136,9 @@ namespace {
 
 std::vector<MethodVariant> raymoval_variants() {
   return {
-      {.name = "offline",
-       .sentence = "Every scan tested against the prior map that all scans leave."},
+      {.name = "offline", .sentence = "Tests every scan against the final map of all scans."},
       {.name = "online",
-       .sentence = "Each scan answered when it arrives, from a growing map.",
+       .sentence = "Answers each scan when it arrives, from the map of the scans so far.",
        .online = true,
        .overrides = {{"offline", false}}},
       {.name = "table1",
@@ -158,8 +157,8 @@ MethodEntry raymoval_entry() {
   MethodEntry entry;
   entry.name = "raymoval";
   entry.sentence =
-      "Raycasting against the map: flags what stands in front of it, erases what is "
-      "seen through, validates clusters against what remains.";
+      "Casts rays against the map: flags points in front of it, erases voxels that a scan sees "
+      "through, validates clusters of flagged points against the remaining map.";
   entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
   entry.bibtex = R"(@misc{raymoval2025,
   title = {Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping},
