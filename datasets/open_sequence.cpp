@@ -64,7 +64,7 @@ void check_known_files(const fs::path& folder) {
 /// Refuses options that only recordings have.
 void check_topics(const Layout& layout, const std::string& path, const SequenceOptions& options) {
   if ((!options.topic && !options.pose_topic) || layout.name == bags_layout().name) return;
-  throw UsageError(path + ": is no recording, so there is no topic to choose by " +
+  throw UsageError(path + ": is not a recording, so there is no topic to choose by " +
                    (options.topic ? "--topic" : "--pose-topic") + ". Leave it out.");
 }
 

@@ -43,10 +43,9 @@ void check_formulas(const ProtocolEntry& entry) {
     if (!spec.formula) continue;
     for (const std::string& part : {spec.formula->first, spec.formula->second}) {
       if (find_named(entry.rates, part) != nullptr) continue;
-      throw ConfigurationError(
-          fmt::format("protocol {}: rate {} follows from '{}', which is no "
-                      "rate of the protocol.",
-                      entry.name, spec.name, part));
+      throw ConfigurationError(fmt::format(
+          "protocol {}: rate {} follows from '{}', which is not a rate of the protocol.",
+          entry.name, spec.name, part));
     }
   }
 }

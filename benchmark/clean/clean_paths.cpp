@@ -89,7 +89,7 @@ void check_folder(const OutputPath& output, bool overwrite) {
   }
   if (!is_there(path)) return;
   if (!is_folder(path)) {
-    throw UsageError(path.string() + ": is no folder; " + output.option +
+    throw UsageError(path.string() + ": is not a folder; " + output.option +
                      " writes several files into one.");
   }
   const std::vector<fs::path> entries = entries_of(path);
@@ -109,7 +109,7 @@ void check_folder(const OutputPath& output, bool overwrite) {
     if (is_ours(entry, path, output.kind, recorded)) continue;
     throw UsageError(entry.string() +
                      (output.kind == OutputKind::kLabels
-                          ? ": is no label file"
+                          ? ": is not a label file"
                           : ": was not written by `clean " + output.option + "`") +
                      ", and --overwrite replaces the whole folder; choose a new one.");
   }

@@ -197,7 +197,7 @@ void check_given_once(const std::vector<Setting>& settings) {
     names.push_back(std::string(kProtocolPrefix) + request.name);
     if (request.name != given) continue;
     throw UsageError("--set names '" + given +
-                     "', which is no method of this run but a protocol: " + "write " +
+                     "', which is not a method of this run but a protocol: " + "write " +
                      names.back() + ".key=value.");
   }
   throw UsageError("--set names '" + given + "', which is not in this run." +
@@ -286,7 +286,7 @@ void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting&
                   checked_value_from_text(owner, spec, setting.value));
     return;
   }
-  throw UsageError("--set names '" + setting.target + "', which is no protocol asked for." +
+  throw UsageError("--set names '" + setting.target + "', which is not a requested protocol." +
                    suggestion(target, names));
 }
 

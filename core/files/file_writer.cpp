@@ -128,7 +128,7 @@ std::filesystem::path output_target(const std::filesystem::path& named) {
                     "). Remove the link, or name another file.");
   }
   if (is_file(target)) return target;
-  throw DataError(where + target.string() + ", which is no file. Name another file.");
+  throw DataError(where + target.string() + ", which is not a file. Name another file.");
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -44,7 +44,7 @@ OpenFile open_plain(const std::filesystem::path& path) {
     if (means_absent(errno)) throw DataError(problem);
     throw UnreadableError(problem);
   }
-  if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is no plain file.");
+  if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is not a regular file.");
   opened.size = static_cast<std::uintmax_t>(status.st_size);
   return opened;
 }

@@ -147,9 +147,9 @@ std::unique_ptr<Bag> open_folder(const fs::path& folder) {
     if (has_bag_ending(entry) && inside.size() < 5) inside.push_back(entry.filename().string());
   }
   if (inside.empty()) {
-    throw DataError(folder.string() +
-                    ": has no metadata.yaml and no .db3, .mcap or .bag file, so it is no "
-                    "recording.");
+    throw DataError(
+        folder.string() +
+        ": has no metadata.yaml and no .db3, .mcap or .bag file, so it is not a recording.");
   }
   throw UsageError(
       folder.string() +

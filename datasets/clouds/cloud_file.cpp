@@ -23,7 +23,7 @@ constexpr const char* kPacked = ".gz";
     throw UsageError(path.string() + ": " + text);
   }
   throw UsageError(path.string() + ": '" + path.extension().string() +
-                   "' is no known cloud format. Supported are: " + join(known) + ".");
+                   "' is not a known cloud format. Supported are: " + join(known) + ".");
 }
 
 /// The known formats, the usual first.

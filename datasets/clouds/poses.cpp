@@ -71,7 +71,7 @@ Pose rigid_pose(const Eigen::Matrix<double, 3, 4>& matrix, const std::string& wh
   const double determinant = rotation.determinant();
   if (!(deviation <= kTolerance) || determinant < 0.0) {
     throw DataError(where +
-                    ": the 3 x 3 part is no rotation: |R^T R - I| = " + number_text(deviation) +
+                    ": the 3 x 3 part is not a rotation: |R^T R - I| = " + number_text(deviation) +
                     " (at most 0.001), det R = " + number_text(determinant) +
                     " (expected +1). Expected a rigid pose r11 r12 r13 tx r21 ... tz.");
   }

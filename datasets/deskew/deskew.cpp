@@ -61,7 +61,8 @@ double usual_unit(double span, const PointClock& clock, const std::string& place
     if (span * unit >= kShortest && span * unit <= kLongest) return unit;
   }
   throw DataError(place + ": the times of its points ('" + clock.field + "') span " +
-                  number_text(span) + ", which is no time of a scan in s, ms, us or ns (2 ms to " +
+                  number_text(span) +
+                  ", which is not a time of a scan in s, ms, us or ns (2 ms to " +
                   "1.9 s). Give its unit: --point-time-unit SECONDS.");
 }
 

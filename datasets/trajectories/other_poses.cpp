@@ -211,8 +211,8 @@ std::optional<PoseFile> read_binary_poses(const std::filesystem::path& path,
   }
   if (given.empty() && head.find('\0') != std::string::npos) {
     throw DataError(path.string() +
-                    ": is no text and no .npy file; expected a pose file. "
-                    "`raymoval list pose-formats` names all forms.");
+                    ": is neither text nor a .npy file; expected a pose file. `raymoval list "
+                    "pose-formats` names all forms.");
   }
   return std::nullopt;
 }

@@ -90,7 +90,7 @@ expect 2 "a method with --method" plan --sequence data/05
 # Folders that are no runs; references have no run.json.
 for command in table report "compare kept" "picture -o p.png"; do
   # shellcheck disable=SC2086
-  expect 2 "data/05: is no run folder (no run.json in it)" $command data/05
+  expect 2 "data/05: is not a run folder (no run.json in it)" $command data/05
 done
 mkdir reference early early/cells
 cp kept/results.json reference

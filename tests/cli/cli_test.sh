@@ -62,7 +62,7 @@ expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --o
 expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
 expect 2 "write protocol:erasor.key=value" run "${short[@]}" --method noop --set erasor.lift=0 --out o
 expect 2 "'lift'" run "${short[@]}" --method noop --set protocol:erasor.lft=0 --out o
-expect 2 "no protocol asked for" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
+expect 2 "not a requested protocol" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
 expect 2 "'tau0'" run "${short[@]}" --method raymoval --set raymoval.tau=1 --out o
 expect 2 "out of range" run "${short[@]}" --method raymoval --set raymoval.tau0=-1 --out o
 expect 2 "not in this run" run "${short[@]}" --method raymoval --set noop.tau0=1 --out o
@@ -247,7 +247,7 @@ holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') 
 expect 2 "--predictions" score "${short[@]}"
 expect 2 "no such folder" score "${short[@]}" --predictions nowhere
 expect 2 "removals/ does" score "${short[@]}" --predictions $cell
-expect 2 "is no folder" score "${short[@]}" --predictions $cell/removals/000000.label
+expect 2 "is not a folder" score "${short[@]}" --predictions $cell/removals/000000.label
 expect 2 "is a folder" score "${short[@]}" --cloud $cell/removals
 expect 2 "put -o before it" clean street map.pcd
 expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
@@ -382,7 +382,7 @@ cp map.pcd before.pcd
 expect 0 "removed" "${online[@]}" -o map.pcd --labels labels --overwrite --threads 2
 holds "the same run gives the same map" cmp map.pcd before.pcd
 touch labels/notes.txt
-expect 2 "no label file" "${online[@]}" -o new.pcd --labels labels --overwrite
+expect 2 "not a label file" "${online[@]}" -o new.pcd --labels labels --overwrite
 # A disk with room for 64 KiB in each file: the map stays as it was and nothing else is left.
 checks=$((checks + 1))
 # (A program that counts its lines for coverage must not write its counts under that limit.)

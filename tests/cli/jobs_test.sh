@@ -96,7 +96,7 @@ expect 0 "no regression" compare --speed slow.json kernels/speed.json --time-ban
 expect 2 "folders that scripts/benchmark.sh wrote" compare --speed . kernels
 expect 2 "raymoval:online is missing in the run" compare --speed other.json kernels
 echo '{' >torn.json
-expect 2 "this is no JSON" compare --speed same.json torn.json
+expect 2 "this is not JSON" compare --speed same.json torn.json
 expect 2 "it can be combined with --time-band alone" compare --speed same.json kernels --tolerance F1=1
 expect 2 "nothing.json: no such file" compare --speed same.json nothing.json
 finish jobs

@@ -217,7 +217,7 @@ MISTAKES = [
     ("las", "LAZ under the name .las", scan("a.las", las(point_format=128 + 6)), ["s"],
      ["a.las", "LAZ", "laszip"]),
     ("las", "cut off", scan("a.las", las(points=5, body=bytes(60))), ["s"], ["a.las", "5", "truncated"]),
-    ("las", "no LAS file", scan("a.las", b"x,y,z\n1,2,3\n"), ["s"], ["a.las", "LASF"]),
+    ("las", "not a LAS file", scan("a.las", b"x,y,z\n1,2,3\n"), ["s"], ["a.las", "LASF"]),
     ("las", "an unknown format of points", scan("a.las", las(point_format=11)), ["s"],
      ["a.las", "11", "0 to 10"]),
     ("bin", "five numbers a point", scan("0.bin", bytes(20 * 3)), ["s"],

@@ -50,7 +50,7 @@ TEST_CASE("no returns are left out at any share, and labels keep their places", 
   // Said once, however often the scan is read.
   (void)sequence.scans->load(0);
   CHECK(left_out_lines(sequence) ==
-        std::vector<std::string>{"66.7 % of the stored points are no returns (NaN or at the "
+        std::vector<std::string>{"66.7 % of the stored points are missing returns (NaN or at the "
                                  "origin) and are left out"});
 }
 

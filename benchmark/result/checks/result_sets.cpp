@@ -65,9 +65,9 @@ std::filesystem::path find_results(const std::string& given) {
                      ": has no results.json; the run did not reach its end. Start it again "
                      "with the same --out to go on.");
   }
-  throw UsageError(given +
-                   ": is no run folder (no run.json in it); expected what `raymoval run --out` "
-                   "made.");
+  throw UsageError(
+      given +
+      ": is not a run folder (no run.json in it); expected what `raymoval run --out` made.");
 }
 
 ResultSet read_result_set(const std::filesystem::path& file) {

@@ -191,7 +191,8 @@ namespace {
 
 void check_folder(const std::filesystem::path& folder) {
   if (!is_folder(folder)) {
-    throw DataError(folder.string() + (is_there(folder) ? ": is no folder" : ": no such folder") +
+    throw DataError(folder.string() +
+                    (is_there(folder) ? ": is not a folder" : ": no such folder") +
                     "; expected one with a NNNNNN.label file for each scan.");
   }
 }

@@ -200,8 +200,8 @@ void Db3Bag::check_tables() const {
                                           std::string(name) + "') WHERE hidden <> 0");
     if (is_table && hidden.step() && hidden.number(0) == 0) continue;
     throw DataError(path().string() + ": has no table '" + name +
-                    "', so it is no recording of rosbag2, or is truncated before it. Name a .db3 "
-                    "that `ros2 bag record` wrote.");
+                    "', so it is not a recording of rosbag2, or is truncated before it. Name a "
+                    ".db3 that `ros2 bag record` wrote.");
   }
 }
 

@@ -63,7 +63,7 @@ class LasHeadReader {
   }
 
   void check_version() {
-    if (!bytes_.starts_with("LASF")) fail("is no LAS file: it does not begin with LASF");
+    if (!bytes_.starts_with("LASF")) fail("is not a LAS file: it does not begin with LASF");
     const int major = at<std::uint8_t>(24);
     minor_ = at<std::uint8_t>(25);
     if (major != 1 || minor_ > 4) {

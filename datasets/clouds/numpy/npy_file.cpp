@@ -157,7 +157,7 @@ class ZipArchive {
     const std::string reason = zip_error_strerror(&error);
     zip_error_fini(&error);
     throw DataError(where_ + ": the zip archive cannot be read (" + reason +
-                    "); it looks truncated, or is no zip archive." + kRereadRemedy);
+                    "); it looks truncated, or is not a zip archive." + kRereadRemedy);
   }
   ~ZipArchive() { zip_discard(archive_); }
   ZipArchive(const ZipArchive&) = delete;

@@ -30,7 +30,7 @@ TEST_CASE("What differs between two cells is told in words", "[result]") {
   CHECK(difference_with([](CellIdentity& to) { to.method.parameters[0].second = 1.0; }) ==
         "parameter size was 0.5, is 1.0");
   CHECK(difference_with([](CellIdentity& to) { to.method.parameters.clear(); }) ==
-        "parameter size is no more");
+        "parameter size was removed");
   CHECK(difference_with([](CellIdentity& to) { to.method.version = "2"; }) ==
         "method version was \"1\", is \"2\"");
   CHECK(difference_with([](CellIdentity& to) { to.protocols[0].options[0].second = 1.5; }) ==

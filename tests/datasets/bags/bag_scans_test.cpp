@@ -159,7 +159,7 @@ TEST_CASE("A file of indices that is damaged is an error", "[bags]") {
       (void)sequence.labels->labels(sequence.scans->load(1));
     });
   };
-  check_says(error("time,0\n"), {"line 1", "'time' is no time", "nanoseconds"});
+  check_says(error("time,0\n"), {"line 1", "'time' is not a time", "nanoseconds"});
   check_says(error("100300000000,0,-1\n"), {"line 1, field 3", "'-1'"});
   check_says(error("100300000000,0 1\n"), {"line 1, field 2", "'0 1'"});
   check_says(error("100300000000,0\n100300000000,1\n"), {"line 2", "time of line 1 again"});
