@@ -90,7 +90,7 @@ void FileWriter::append(std::string_view content) {
 
 void FileWriter::overwrite(std::uint64_t offset, std::string_view content) {
   if (offset + content.size() > size_) {
-    throw InternalError(path_.string() + ": overwrites what was not written");
+    throw InternalError(path_.string() + ": overwrites bytes that were not written");
   }
   put(content, offset);
 }

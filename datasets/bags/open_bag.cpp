@@ -94,7 +94,7 @@ BagContainer container_of(const fs::path& file) {
   if (head.starts_with(kRos1Magic)) return BagContainer::kRos1;
   if (head.starts_with("#ROSBAG V1") || head.starts_with("#ROSLOG V1")) {
     throw UsageError(file.string() + ": is a bag of version " + head.substr(9, 3) +
-                     ", from before 2010; only 2.0 is read. `rosbag fix` writes it anew.");
+                     ", from before 2010; only 2.0 is read. `rosbag fix` rewrites it.");
   }
   if (head.starts_with(kMcapMagic)) return BagContainer::kMcap;
   if (head.starts_with("SQLite format 3")) return BagContainer::kDb3;

@@ -84,7 +84,7 @@ void add_ground(Table& table) {
               {"m", 0.001, 10, "0.5 in all sets",
                "Points less than this above the representative seed the ground plane."})
       .integer("gf_iter", &P::plane_iterations,
-               {"", 1, 100, "3 in all sets", "Times that the plane is fitted."})
+               {"", 1, 100, "3 in all sets", "Number of plane fits."})
       .number("gf_dist_thr", &P::ground_distance,
               {"m", 0.001, 10, "code 0.05; sets 0.15 0.15 0.15 0.15 0.125",
                "Points less than this above the plane are ground."});

@@ -124,8 +124,8 @@ std::vector<std::string> mapcleaner_notes() {
       "Scans are not thinned before they are added to the map; the public program can do this.",
       "Voxels and terrain cells are those of the lattice at the world's origin.",
       "Patchwork++: variances are those of the sample; where only one plane is known, its "
-      "deviation is 0; where no plane of a ring is low enough, none is taken for being like "
-      "them; a bin all of whose points lie below 1.2 sensor heights begins with all of them.",
+      "deviation is 0; where no plane of a ring is low enough, none is accepted for similarity; a "
+      "bin all of whose points lie below 1.2 sensor heights begins with all of them.",
       "Filling: a cell at the distance of the radius does not count; one with too few others "
       "around it to have a smooth height does not count in the second round.",
       "A cell without neighbours along an axis is level along it.",
@@ -135,9 +135,9 @@ std::vector<std::string> mapcleaner_notes() {
       "12.4 m away, where the innermost zone of Patchwork++ ends: else a stationary sensor has no "
       "terrain. Where all ground within that distance is too steep, slopes are relative to its "
       "median slope, so that a hill has a terrain.",
-      "sound has pixels that are as large as it takes for the window around a voxel to reach from "
-      "one beam to the next, and asks for fewer points in a bin where the sensor's directions are "
-      "farther apart than those of the HDL-64E.",
+      "sound has pixels so large that the window around a voxel reaches from one beam to the next, "
+      "and requires fewer points in a bin where the sensor's directions are farther apart than "
+      "those of the HDL-64E.",
       "Filling: however far a cell deviates, it counts at least exp(-60).",
       "sound has images a pixel larger on each side than the sensor's field of view.",
       "sound estimates the sensor's height by the median of the upright planes that its first scan "

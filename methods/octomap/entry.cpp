@@ -71,7 +71,9 @@ void add_filters(Table& table) {
           {"points", 1, 1000, "KTH port (2023): K", "Neighbours of the mean distance.", kNoise})
       .number("noise_sigma", &P::noise_sigma,
               {"", 0.01, 1000, "KTH port (2023): S",
-               "Outliers are above the mean by so many standard deviations.", kNoise});
+               "Points with a mean distance above the mean by this many standard deviations are "
+               "outliers.",
+               kNoise});
 }
 
 Table make_table() {

@@ -29,7 +29,7 @@ void add_grid(Table& table) {
               {"m", 1, 500, "eq. 7, Table 1", "Rays end here; points beyond stay static."})
       .number("minimum_range", &P::minimum_range,
               {"m", 0, 20, kOurs,
-               "Ego radius: nearer points go to no bin and nearer map voxels stop no ray."});
+               "Ego radius: nearer points are in no bin and nearer map voxels stop no ray."});
 }
 
 void add_tests(Table& table) {
@@ -60,10 +60,10 @@ void add_tests(Table& table) {
                "Quantile of the window of first hits in the erase test."})
       .integer("erase_azimuth_window", &P::erase_azimuth_window,
                {"bins", 0, 30, kOurs,
-                "A voxel is erased only if no return within so many columns supports it."})
+                "A voxel is erased only if no return within this many columns supports it."})
       .integer("erase_elevation_window", &P::erase_elevation_window,
                {"bins", -1, 100, kOurs,
-                "A voxel is erased only if no return within so many rows supports it; -1 reaches "
+                "A voxel is erased only if no return within this many rows supports it; -1 reaches "
                 "the neighbouring beam, but at most 0.5 degrees."});
 }
 
@@ -90,7 +90,7 @@ void add_validation_and_answer(Table& table) {
                 kValidate})
       .integer("coverage_dilation", &P::coverage_dilation,
                {"voxels", 0, 5, "eq. 14, delta_v (no value)",
-                "A point is covered if the static map is within so many voxels.", kValidate})
+                "A point is covered if the static map is within this many voxels.", kValidate})
       .number("coverage_static", &P::coverage_static,
               {"", 0, 1.01, "eq. 15, theta_cov (no value)",
                "A group covered at least this much is static; above 1: never.", kValidate})

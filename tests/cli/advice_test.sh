@@ -191,7 +191,7 @@ for command in "" compare; do
   # shellcheck disable=SC2086
   expect 0 "raymoval compare out/quick results/reference/street" $command --help
 done
-expect 0 "variants worth a comparison" list suites
+expect 0 "the default variant of every method" list suites
 expect 0 "this project" describe raymoval_plus
 parameters() { "$raymoval" describe "$@" | sed -nE 's/^  ([a-z_0-9]+) = .*/\1/p'; }
 holds "describe shows five main parameters" test "$(parameters raymoval_plus | wc -l)" -eq 5

@@ -277,7 +277,8 @@ TEST_CASE("A place where no file can be is told with the system's reason") {
   CHECK(writer.path() == folder.path() / "a.txt");
   writer.append("abc");
   writer.overwrite(0, "xyz");  // All of it, up to its end.
-  CHECK_THROWS_WITH(writer.overwrite(3, "!"), Contains("a.txt: overwrites what was not written"));
+  CHECK_THROWS_WITH(writer.overwrite(3, "!"),
+                    Contains("a.txt: overwrites bytes that were not written"));
   writer.commit();
   CHECK(read_text(folder.path() / "a.txt") == "xyz");
 }

@@ -186,7 +186,7 @@ TEST_CASE("the vehicle in view is a finding, or a note where its labels say so",
   INFO(text_of(noted));
   REQUIRE(noted.findings.size() == 1);
   CHECK(noted.findings[0].check == "ego-vehicle");
-  CHECK_THAT(noted.findings[0].what, Catch::Contains("their labels say so (0)"));
+  CHECK_THAT(noted.findings[0].what, Catch::Contains("they are labelled as such (0)"));
   CHECK_FALSE(noted.has_findings());
   many.labelled = false;
   check_finds(many.inspected(), "ego-vehicle", "--drop-ego auto, here the box");

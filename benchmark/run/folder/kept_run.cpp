@@ -138,8 +138,8 @@ SequenceRequest KeptRun::place_of(const std::string& sequence) const {
   const SequenceRecord* known = find_named(record_.run.sequences, sequence);
   if (known != nullptr && known->place) return *known->place;
   if (data_.empty()) {
-    throw DataError(folder_.string() + ": run.json does not say where sequence '" + sequence +
-                    "' is (it is missing, or of an earlier version). Name its folder with --data.");
+    throw DataError(folder_.string() + ": run.json has no folder for sequence '" + sequence +
+                    "' (it is missing, or of an earlier version). Name its folder with --data.");
   }
   SequenceRequest place;
   if (known != nullptr && !known->data.frames.empty()) {

@@ -292,7 +292,7 @@ std::string McapBag::message_head(std::size_t topic, std::size_t index, std::siz
       mcap_time(head.log_time) != message.recorded) {
     throw DataError(
         where + ": the index leads to byte " + grouped_text(place.offset) +
-        ", where there is no such message; the file is damaged. `mcap recover` writes it anew.");
+        ", where there is no such message; the file is damaged. `mcap recover` rewrites it.");
   }
   bytes.erase(0, kMcapMessageHeadSize);
   bytes = unpacked_if_packed(std::move(bytes), topics()[topic].encoding == MessageEncoding::kCdr,

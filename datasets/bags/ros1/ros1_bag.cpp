@@ -279,7 +279,8 @@ std::string Ros1Bag::read_message(std::size_t topic, std::size_t index, std::siz
   const ChunkStore::Chunk unpacked = unpacked_.get(chunk_of(place), [&] {
     Unpacked all = unpack_chunk(file_, chunk);
     if (!all.problem.empty()) {
-      notes_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") + " (" + all.problem + ").");
+      notes_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") + " (" + all.problem +
+                 ").");
     }
     return std::move(all.bytes);
   });

@@ -134,7 +134,7 @@ bool has_words(const Samples& samples) {
 
 Finding shifted_finding(const Samples& samples, bool next, const std::string& what) {
   return {.where = label_place(samples, 0) + " and the others",
-          .what = fmt::format("labels of frame N are those of the scan {} it: {}",
+          .what = fmt::format("labels of frame N belong to the scan {} it: {}",
                               next ? "after" : "before", what)};
 }
 

@@ -153,7 +153,7 @@ Finding ego_finding(const EgoPoints& ego, std::size_t scans, const EgoRegion& re
                    " (or \"drop_ego\" in sequence.json); --range only limits what is evaluated.";
   if (10 * ego.labelled >= 8 * ego.points) {
     finding.severity = Severity::kNote;
-    finding.what += "; their labels say so (" + ego_ids_text(ego) + ")";
+    finding.what += "; they are labelled as such (" + ego_ids_text(ego) + ")";
     finding.remedy =
         "Nothing, if methods should get these points. If not: l" + finding.remedy.substr(1);
   }

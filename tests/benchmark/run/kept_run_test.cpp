@@ -157,7 +157,7 @@ TEST_CASE("Without run.json only --data says where a sequence is") {
   const TwoSequences two;
   fs::remove(two.run / "run.json");
   CHECK_THROWS_WITH(two.scans_of("drive"),
-                    Contains("run.json does not say where sequence 'drive' is") &&
+                    Contains("run.json has no folder for sequence 'drive'") &&
                         Contains("Name its folder with --data."));
   CHECK(two.scans_of("drive", two.root) == 1);
   // With the frames of the run, of which there are more now.

@@ -200,7 +200,8 @@ TEST_CASE(
   moody_run = 2;
   const RunSummary failed = run_suite(suite, {.out = out});
   REQUIRE(failed.failures.size() == 1);
-  CHECK_THAT(failed.failures[0], Contains("repeat 2: it removed other points than in the first run"));
+  CHECK_THAT(failed.failures[0],
+             Contains("repeat 2: it removed other points than in the first run"));
   const Cell cell = read_cell(out / "cells/street/moody-v/cell.json");
   CHECK(cell.status == CellStatus::kFailed);
   // A failed cell has no figures, neither of its own nor in any table.
