@@ -83,8 +83,8 @@ for command in "clean -o map.pcd --method noop" inspect; do
   expect 2 "--sequence is given 2 times" $command data/05 --sequence data/05
 done
 rm map.pcd
-expect 2 "run what?" run
-expect 2 "run what?" run --method noop
+expect 2 "SUITE is missing" run
+expect 2 "SUITE is missing" run --method noop
 expect 2 "a method with --method" plan --sequence data/05
 
 # Folders that are no runs; references have no run.json.

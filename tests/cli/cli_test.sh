@@ -83,8 +83,8 @@ expect 2 "nowhere" run nowhere.json --out o
 expect 2 "nothing to run on" plan
 expect 2 "Did you mean 'simulated'" plan simulatd
 expect 2 "no such run folder" table nowhere
-expect 2 "which run" table
-expect 2 "which run" report
+expect 2 "RUN is missing" table
+expect 2 "RUN is missing" report
 expect 2 "no such run folder" report nowhere
 expect 2 "--points 7" report nowhere --points 7
 holds "no bad command line made a folder" test ! -e o
@@ -423,7 +423,7 @@ for wrong in "--scans 0" "--scans two" "--seed -1" "--pose-noise -1" "--threads 
   # shellcheck disable=SC2086
   expect 2 "${wrong% *}" simulate town -o other_sim $wrong
 done
-expect 2 "simulate what" simulate -o other_sim
+expect 2 "SCENE is missing" simulate -o other_sim
 expect 2 "-o DIR" simulate town
 holds "no refused simulation left a folder" test ! -e other_sim
 holds "nothing half written is left" test -z "$(find . -name '*.part')"
@@ -476,7 +476,7 @@ for input in poses.txt calib.txt labels/000000.label velodyne/000000.bin; do
     --json sim/town/$input --overwrite --quiet
   holds "$input stays" cmp kept.input sim/town/$input
 done
-expect 2 "inspect what" inspect
+expect 2 "PATH is missing" inspect
 expect 2 "--point-time-unit min: expected s, ms, us, ns" inspect sim/town --point-time-unit min
 expect 2 "sim/town." inspect sim/town/velodyne
 expect 2 "is a scan" inspect sim/town/velodyne/000000.bin
@@ -500,7 +500,7 @@ for kind in pr-rr stages accuracy-time; do
   holds "$kind is an SVG" grep -q '^<svg xmlns="http://www.w3.org/2000/svg"' $kind.svg
 done
 expect 2 "no method has what --kind sweep shows" picture shown -o sweep.svg --kind sweep
-expect 2 "which run" picture -o map.png --overwrite
+expect 2 "RUN is missing" picture -o map.png --overwrite
 expect 2 "-o FILE.png" picture shown
 expect 2 "no such run folder" picture nowhere -o map.png --overwrite
 expect 2 "Did you mean 'overview'" picture shown -o map.png --overwrite --kind overvew

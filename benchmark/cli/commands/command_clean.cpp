@@ -120,7 +120,8 @@ void write_outputs(const ScanSource& scans, const MethodAnswer& answer, Cleaning
 }
 
 CleanPaths checked_paths(const CleanFlags& flags) {
-  if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
+  if (flags.path.empty())
+    throw UsageError("PATH is missing: expected `raymoval clean PATH -o FILE`.");
   check_not_both(flags.path);
   CleanPaths paths;
   paths.tiled = !flags.tiles.empty();

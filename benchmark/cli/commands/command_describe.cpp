@@ -281,7 +281,7 @@ bool is_also_protocol(const std::string& name) {
 
 ExitCode describe(const DescribeFlags& flags) {
   if (flags.name.empty()) {
-    throw UsageError("describe what? Name a method or a protocol (see `raymoval list`).");
+    throw UsageError("NAME is missing: name a method or a protocol (see `raymoval list`).");
   }
   if (flags.markdown && flags.json) throw UsageError("choose one of --markdown and --json.");
   const Description description = description_of(flags.name);

@@ -107,7 +107,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
     return ExitCode::kDone;
   }
   if (flags.path.empty()) {
-    throw UsageError("inspect what? Name a sequence folder, ROOT:05, or a scene.");
+    throw UsageError("PATH is missing: name a sequence folder, ROOT:05, or a scene.");
   }
   check_not_both(flags.path);
   const double limit = flags.process.memory_limit_mib();

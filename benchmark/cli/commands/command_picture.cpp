@@ -57,7 +57,8 @@ void check_options(const PictureFlags& flags) {
 }
 
 void check_flags(const PictureFlags& flags) {
-  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval picture RUN -o FILE`.");
+  if (flags.run.empty())
+    throw UsageError("RUN is missing: expected `raymoval picture RUN -o FILE`.");
   if (!is_among(kinds(), flags.kind)) {
     throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
   }

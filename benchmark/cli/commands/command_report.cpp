@@ -55,7 +55,7 @@ std::string size_text(std::size_t bytes) {
 }
 
 ExitCode report(const ReportFlags& flags) {
-  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval report RUN`.");
+  if (flags.run.empty()) throw UsageError("RUN is missing: expected `raymoval report RUN`.");
   if (!flags.output.path.empty()) {
     const std::string extension = std::filesystem::path(flags.output.path).extension().string();
     if (extension != ".html" && extension != ".htm") {

@@ -115,8 +115,8 @@ std::string end_of_run(const std::string& out) {
 ExitCode run(const RunFlags& flags) {
   if (flags.what.suite.empty() && flags.what.sequences.empty()) {
     throw UsageError(
-        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
-        "--method NAME --out DIR`.");
+        "SUITE is missing: expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence "
+        "PATH --method NAME --out DIR`.");
   }
   const Suite suite = flags.what.resolved();
   check_flags(flags);

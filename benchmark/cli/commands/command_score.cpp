@@ -250,7 +250,7 @@ void check_is_of_maps(SequenceFlags reading) {
 
 void check_flags(const ScoreFlags& flags) {
   if (flags.sequence.empty() && flags.truth_map.empty())
-    throw UsageError("score what? Expected `raymoval score PATH --predictions DIR`.");
+    throw UsageError("PATH is missing: expected `raymoval score PATH --predictions DIR`.");
   if (!flags.truth_map.empty() && (!flags.sequence.empty() || flags.cloud.empty())) {
     throw UsageError(
         "--truth-map FILE replaces the sequence and needs --cloud FILE: `raymoval score "

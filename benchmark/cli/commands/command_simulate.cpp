@@ -56,7 +56,7 @@ std::string content_text(const std::string& folder) {
 
 ExitCode simulate(const SimulateFlags& flags) {
   if (flags.scene.empty()) {
-    throw UsageError("simulate what? Expected `raymoval simulate SCENE -o DIR`; scenes are " +
+    throw UsageError("SCENE is missing: expected `raymoval simulate SCENE -o DIR`; scenes are " +
                      join(simulated_scene_names()) + ".");
   }
   if (flags.output.empty()) throw UsageError("-o DIR is missing: name the sequence's folder.");

@@ -34,7 +34,7 @@ void check_word(const std::string& option, const std::string& word,
 }
 
 void check_flags(const TableFlags& flags) {
-  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval table RUN`.");
+  if (flags.run.empty()) throw UsageError("RUN is missing: expected `raymoval table RUN`.");
   check_word("--format", flags.format, {"md", "csv", "tex", "json"});
   check_word("--layout", flags.layout, {"methods", "paper"});
   const struct {
