@@ -64,7 +64,7 @@ class Reader {
   }
   [[nodiscard]] double number_of(const std::string& text) const {
     const auto number = parse_number<double>(text);
-    if (!number) fail("'" + text + "' is no number");
+    if (!number) fail("'" + text + "' is not a number");
     return *number;
   }
 

@@ -21,7 +21,7 @@ ClassNames class_names() {
 /// Poses and frame are those that the files say.
 void check_no_pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder) {
   const std::string why =
-      " cannot be used: the poses of this layout stand in the VIEWPOINT of each .pcd file. ";
+      " cannot be used: the poses of this layout are in the VIEWPOINT of each .pcd file. ";
   if (settings.poses) {
     throw UsageError(folder.string() + ": a pose file ('" + *settings.poses + "')" + why +
                      "Leave --poses out.");

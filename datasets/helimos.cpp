@@ -65,7 +65,7 @@ fs::path named_sensor(const std::string& path) {
   if (std::find(there.begin(), there.end(), sensor) != there.end()) return fs::path(root) / sensor;
   throw UsageError(root + ": is a root with a folder for each sensor" +
                    (sensor.empty() ? "" : ", and has none for '" + sensor + "'") + ". It has " +
-                   join(there) + "; say which one, such as " + root + ":" + there.front() + ".");
+                   join(there) + "; name one, such as " + root + ":" + there.front() + ".");
 }
 
 Sequence open_helimos(Layout::Path path, const SequenceOptions& options,

@@ -64,7 +64,7 @@ void check_known_files(const fs::path& folder) {
 /// Refuses options that only recordings have.
 void check_topics(const Layout& layout, const std::string& path, const SequenceOptions& options) {
   if ((!options.topic && !options.pose_topic) || layout.name == bags_layout().name) return;
-  throw UsageError(path + ": is no recording, so there is no topic to choose by " +
+  throw UsageError(path + ": is not a recording, so there is no topic to choose by " +
                    (options.topic ? "--topic" : "--pose-topic") + ". Leave it out.");
 }
 
@@ -72,7 +72,7 @@ void check_topics(const Layout& layout, const std::string& path, const SequenceO
 void check_label_rule(const Sequence& sequence, const SequenceOptions& options) {
   if (!options.label_rule || is_rule_file(*options.label_rule) || sequence.moving_now) return;
   throw UsageError("--label-rule moving-now cannot be used on sequence " + sequence.name + ": " +
-                   (sequence.labels ? "its labels do not say who moves when" : "it has no labels") +
+                   (sequence.labels ? "its labels have no times of motion" : "it has no labels") +
                    ". Leave it out.");
 }
 

@@ -168,7 +168,7 @@ std::string folder_name(const std::filesystem::path& folder) {
   std::error_code error;
   const auto whole = std::filesystem::weakly_canonical(folder, error);
   if (error) {
-    throw UnreadableError(folder.string() + ": cannot be looked at (" + error.message() + ").");
+    throw UnreadableError(folder.string() + ": cannot be accessed (" + error.message() + ").");
   }
   const auto name = whole.filename();
   return name.empty() ? "sequence" : name.string();

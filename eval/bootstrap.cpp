@@ -56,7 +56,7 @@ Intervals bootstrap(const std::vector<Counts>& counts_by_scan,
   const std::vector<Rate> rates = rates_of(Counts(counts_by_scan.front().size(), 0));
   if (scans < kFewestScans) {
     for (const Rate& rate : rates) {
-      result.rates.push_back({rate.name, {}, {}, "fewer than 4 scans say nothing about others"});
+      result.rates.push_back({rate.name, {}, {}, "fewer than 4 scans are too few for an interval"});
     }
     return result;
   }

@@ -31,8 +31,8 @@ void unite(const std::vector<Spec>& specs, const std::string& protocol, std::vec
       all.push_back(spec);
     } else if (!(*known == spec)) {
       throw ConfigurationError(
-          fmt::format("protocol {} says something else of '{}' than an earlier protocol does. Use "
-                      "the same description, or another name.",
+          fmt::format("protocol {} describes '{}' differently from an earlier protocol. Use the "
+                      "same description, or another name.",
                       protocol, spec.name));
     }
   }
@@ -43,10 +43,9 @@ void check_formulas(const ProtocolEntry& entry) {
     if (!spec.formula) continue;
     for (const std::string& part : {spec.formula->first, spec.formula->second}) {
       if (find_named(entry.rates, part) != nullptr) continue;
-      throw ConfigurationError(
-          fmt::format("protocol {}: rate {} follows from '{}', which is no "
-                      "rate of the protocol.",
-                      entry.name, spec.name, part));
+      throw ConfigurationError(fmt::format(
+          "protocol {}: rate {} follows from '{}', which is not a rate of the protocol.",
+          entry.name, spec.name, part));
     }
   }
 }

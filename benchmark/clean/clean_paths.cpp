@@ -90,15 +90,15 @@ void check_folder(const OutputPath& output, bool overwrite) {
   }
   if (!is_there(path)) return;
   if (!is_folder(path)) {
-    throw UsageError(path.string() + ": is no folder; " + output.option +
+    throw UsageError(path.string() + ": is not a folder; " + output.option +
                      " writes several files into one.");
   }
   const std::vector<fs::path> entries = entries_of(path);
   if (entries.empty()) return;
   if (!overwrite) {
-    throw UsageError(path.string() + ": holds " + entries.front().filename().string() +
-                     " already; choose a new folder, or replace what an earlier run left there "
-                     "with --overwrite.");
+    throw UsageError(
+        path.string() + ": holds " + entries.front().filename().string() +
+        " already; choose a new folder, or replace the output of an earlier run with --overwrite.");
   }
   std::optional<std::set<std::string>> recorded;
   if (output.kind != OutputKind::kLabels) recorded = recorded_files(path, output.kind);
@@ -110,7 +110,7 @@ void check_folder(const OutputPath& output, bool overwrite) {
     if (is_ours(entry, path, output.kind, recorded)) continue;
     throw UsageError(entry.string() +
                      (output.kind == OutputKind::kLabels
-                          ? ": is no label file"
+                          ? ": is not a label file"
                           : ": was not written by `clean " + output.option + "`") +
                      ", and --overwrite replaces the whole folder; choose a new one.");
   }
@@ -192,9 +192,7 @@ void check_paths(const CleanPaths& paths) {
         throw UsageError(both + " name the same file.");
       }
       if (is_within(first, second) || is_within(second, first)) {
-        throw UsageError(both +
-                         " name places of which one is in the other; choose two that are "
-                         "beside each other.");
+        throw UsageError(both + " name nested folders; choose two that are not inside each other.");
       }
     }
   }
@@ -211,15 +209,15 @@ void check_apart_from(const Sequence& sequence, const CleanPaths& paths,
     for (const OutputPath& output : outputs) {
       const fs::path path = plain(output.path);
       if (output.kind == OutputKind::kCloud && path.parent_path() == scans) {
-        throw UsageError(output.path.string() +
-                         ": lies among the scans of the sequence and would be taken for one of "
-                         "them; choose another folder.");
+        throw UsageError(
+            output.path.string() +
+            ": is in the folder of the scans and would be read as a scan; choose another folder.");
       }
       if (output.kind != OutputKind::kLabels) continue;
       if (path == scans || path == scans / "labels" || path == scans.parent_path() / "labels") {
-        throw UsageError(output.path.string() +
-                         ": is where the sequence's own labels stand, which are the truth; choose "
-                         "another folder.");
+        throw UsageError(
+            output.path.string() +
+            ": is the folder of the ground-truth labels of the sequence; choose another folder.");
       }
     }
   }

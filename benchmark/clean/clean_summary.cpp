@@ -24,7 +24,7 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
 
 InspectionReport check_data(const Sequence& sequence, const std::string& path, bool force,
                             const OpenContext& context) {
-  context.progress->begin("looking for mistakes in the data", 1);
+  context.progress->begin("checking the data", 1);
   InspectionReport report = inspect(sequence, context.threads, context.cancel);
   context.progress->end();
   std::vector<std::string> wrong;
@@ -37,28 +37,27 @@ InspectionReport check_data(const Sequence& sequence, const std::string& path, b
       wrong.push_back(finding.sentence());
     } else {
       warned.push_back(finding);
-      print_warning((refused ? "going on because of --force, in spite of " : "") +
+      print_warning((refused ? "continuing because of --force, in spite of " : "") +
                     finding.sentence());
     }
   }
   report.findings = std::move(warned);
   if (wrong.empty()) return report;
   throw DataError(
-      fmt::format("{} The map would be wrong, so nothing was written; `raymoval inspect {}` says "
-                  "more, and --force cleans all the same.",
+      fmt::format("{} The map would be wrong, so nothing was written; `raymoval inspect {}` shows "
+                  "details, and --force cleans it nevertheless.",
                   join(wrong, "\nraymoval: "), path));
 }
 
 void check_removed(std::uint64_t removed, std::uint64_t points, const std::string& path) {
   const std::string look = fmt::format(
-      " Look at the poses, units and sensor (`raymoval inspect {}`), or try another --method.",
-      path);
+      " Check the poses, units and sensor (`raymoval inspect {}`), or try another --method.", path);
   if (removed == 0) {
-    print_warning("nothing was removed: either nothing moves here, or the method cannot see it." +
-                  look);
+    print_warning(
+        "nothing was removed: either nothing moves here, or the method does not detect it." + look);
   } else if (2 * removed > points) {
-    print_warning("more than half of all points were removed, which is much for things that move." +
-                  look);
+    print_warning(
+        "more than half of all points were removed, which is too much for moving objects." + look);
   }
 }
 
@@ -102,24 +101,25 @@ std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points
         names.push_back(finding.check);
       }
     }
-    advice.push_back("first mend what was said of the data: " + join(names) + ".");
+    advice.push_back("first correct the mistakes in the data: " + join(names) + ".");
   }
   const auto share =
       static_cast<double>(removed) / static_cast<double>(std::max<std::uint64_t>(points, 1));
   if (share < kFew && method != "raymoval_plus:offline") {
     advice.push_back(
-        "little was removed: if moving things are left, try --method "
-        "raymoval_plus:offline, which removes most.");
+        "little was removed: if moving objects are left, try --method raymoval_plus:offline, which "
+        "removes most.");
   } else if (share < kFew) {
     advice.push_back(
-        "little was removed: if moving things are left, look at the poses and units "
-        "(`raymoval inspect " +
+        "little was removed: if moving objects are left, check the poses and units (`raymoval "
+        "inspect " +
         path + "`).");
   }
   advice.push_back(
-      "if walls or ground are gone, the poses are off in most cases: `raymoval inspect " + path +
-      "`; if points of the own vehicle are left, try --drop-ego auto.");
-  if (!is_seen) advice.push_back("look at it with --html map.html or --picture map.png.");
+      "if parts of walls or ground are missing, the poses are wrong in most cases: `raymoval "
+      "inspect " +
+      path + "`; if points of the ego vehicle are left, try --drop-ego auto.");
+  if (!is_seen) advice.push_back("look at the map with --html map.html or --picture map.png.");
   return advice;
 }
 

@@ -17,11 +17,10 @@ std::vector<std::string> CleanedCloud::warnings() const {
   std::vector<std::string> warnings;
   if (non_finite > 0) {
     warnings.push_back(grouped_text(non_finite) + " of " + grouped_text(stored) +
-                       " points of the cloud have a coordinate that is no finite number; they "
-                       "count for nothing");
+                       " points of the cloud have a coordinate that is not finite and are ignored");
   }
   if (points.empty()) {
-    warnings.push_back("the cloud has no point: all that was there counts as removed");
+    warnings.push_back("the cloud has no point: every point counts as removed");
   }
   return warnings;
 }

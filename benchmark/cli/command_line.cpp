@@ -46,7 +46,8 @@ void listen_to(int signal, bool unless_ignored) {
 
 /// @param name of the program in help
 ExitCode run_program(int argc, const char* const* argv, const std::string& name) {
-  CommandParser program(name + ": evaluates the removal of moving objects from LiDAR maps.", name);
+  CommandParser program(
+      name + ": removes moving objects from LiDAR maps, and compares methods that do so.", name);
   program.set_version("raymoval " RAYMOVAL_VERSION);
   program.set_footer(
       "Examples:\n"
@@ -59,9 +60,10 @@ ExitCode run_program(int argc, const char* const* argv, const std::string& name)
       "  raymoval clean data/05 -o static.pcd\n"
       "  raymoval inspect data/05\n"
       "  raymoval simulate town -o data/town\n"
-      "`raymoval help COMMAND` says more. Exit codes: 0 done, 1 a cell or a check failed or got "
-      "worse,\n"
-      "2 cannot be done as asked, 3 internal error, 128 + N ended by signal N.");
+      "`raymoval help COMMAND` shows the options of a command. Exit codes: 0 success, 1 a cell or "
+      "a check\n"
+      "failed or got worse, 2 wrong usage or unusable input, 3 internal error, 128 + N ended by "
+      "signal N.");
   std::vector<Command> commands;
   for (const auto add :
        {add_run_command, add_plan_command, add_run_method_command, add_table_command,
@@ -113,7 +115,7 @@ int show_error(const std::string& message, ExitCode code) {
   } catch (const std::exception& error) {
     show_error(error.what(), ExitCode::kInternal);
   } catch (...) {
-    show_error("something was thrown that is no error", ExitCode::kInternal);
+    show_error("an exception of an unknown type was thrown", ExitCode::kInternal);
   }
   ::_exit(static_cast<int>(ExitCode::kInternal));
 }
@@ -148,12 +150,11 @@ int run_with_words(int argc, const char* const* argv, const MethodRegistry* meth
   } catch (const Error& error) {
     return show_error(error.what(), error.exit_code());
   } catch (const std::system_error& error) {
-    return show_error(std::string("the system refuses something: ") + error.what(),
-                      ExitCode::kCannotDo);
+    return show_error(std::string("a system call failed: ") + error.what(), ExitCode::kCannotDo);
   } catch (const std::exception& error) {
     return show_error(error.what(), ExitCode::kInternal);
   } catch (...) {
-    return show_error("something was thrown that is no error", ExitCode::kInternal);
+    return show_error("an exception of an unknown type was thrown", ExitCode::kInternal);
   }
 }
 

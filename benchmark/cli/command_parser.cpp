@@ -105,7 +105,7 @@ std::string chosen_command(const CLI::App& program) {
     const auto option = closest_name(left.front(), option_names(program));
     if (option) names = {*option};  // "version"
   }
-  throw UsageError("'" + left.front() + "' is no command." + suggestion(left.front(), names) +
+  throw UsageError("'" + left.front() + "' is not a command." + suggestion(left.front(), names) +
                    " See `" + program.get_name() + " --help`.");
 }
 
@@ -215,7 +215,7 @@ std::string CommandParser::help_page(const std::string& command) const {
     if (app->get_name() == command) return page(app, program.get_name() + " " + command);
     names.push_back(app->get_name());
   }
-  throw UsageError("'" + command + "' is no command." + suggestion(command, names));
+  throw UsageError("'" + command + "' is not a command." + suggestion(command, names));
 }
 
 }  // namespace raymoval

@@ -34,11 +34,11 @@ int WorkFlags::thread_count() const {
 }
 
 void ProcessFlags::add_to(CommandOptions& options) {
-  options.add("--memory-limit", "SIZE", memory_limit,
-              "The memory it may use, in MiB or with a unit such as 2GB (default: nine tenths of "
-              "the machine's)");
+  options.add(
+      "--memory-limit", "SIZE", memory_limit,
+      "Limit of memory, in MiB or with a unit such as 2GB (default: nine tenths of the machine's)");
   options.add_flag("--in-process", in_process,
-                   "Work in this process, for a debugger; there is then no limit on memory");
+                   "Run in this process, for a debugger; without a limit of memory");
 }
 
 double ProcessFlags::memory_limit_mib() const {

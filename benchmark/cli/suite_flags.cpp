@@ -116,7 +116,7 @@ Suite SuiteFlags::resolved() const {
   }
   if (!flags.suite.empty()) check_suite_alone(flags);
   if (flags.suite.empty() && !data.empty()) {
-    throw UsageError("--data goes with a suite file that names {data}; use --sequence.");
+    throw UsageError("--data needs a suite file that names {data}; use --sequence.");
   }
   Suite made = flags.suite.empty() ? suite_from_flags(flags, registry)
                                    : read_suite(find_suite(flags.suite), registry, data);

@@ -31,10 +31,10 @@ ExitCode answer_of(const ChildEnd& end, const CommandWords& words, double limit_
           words.doing, limit_mib, words.outcome, words.less_memory, end.memory_note));
     case ChildEnd::Kind::kSignalled:
       if (end.code == SIGKILL) {
-        throw DataError(fmt::format(
-            "{} was killed from outside when it had {:.0f} MiB of memory: by the system if memory "
-            "ran out, or by somebody.{}",
-            words.doing, end.largest_mib, words.outcome));
+        throw DataError(
+            fmt::format("{} was killed from outside when it had {:.0f} MiB of memory: by the "
+                        "system if memory ran out, or by a user.{}",
+                        words.doing, end.largest_mib, words.outcome));
       }
       throw MethodError(fmt::format("{} crashed: {}.{}{}", words.doing, signal_text(end.code),
                                     words.outcome, words.after_crash));

@@ -89,7 +89,7 @@ class MessageReader {
   std::string take(std::uint64_t size) {
     std::string piece;
     if (size <= left_) piece = read_at(file_, static_cast<std::size_t>(size), offset_);
-    if (piece.size() < size) throw MethodError("the answer is cut off");
+    if (piece.size() < size) throw MethodError("the answer is truncated");
     offset_ += size;
     left_ -= size;
     return piece;

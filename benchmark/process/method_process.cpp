@@ -72,7 +72,7 @@ MethodAnswer no_answer(const ChildEnd& end, const ChildLimits& limits) {
       if (end.largest_mib > 0.5 * machine_memory_mib()) answer.status = CellStatus::kOutOfMemory;
       answer.reason = fmt::format(
           "was killed from outside when it had {:.0f} MiB of memory: by the system if memory ran "
-          "out, or by somebody",
+          "out, or by a user",
           end.largest_mib);
       break;
     case ChildEnd::Kind::kExited:

@@ -139,7 +139,7 @@ MethodAnswer run_method(const MethodTask& task) {
   } catch (const std::exception& error) {
     fail(CellStatus::kFailed, error.what());
   } catch (...) {
-    fail(CellStatus::kFailed, "the method threw something that is no std::exception");
+    fail(CellStatus::kFailed, "the method threw an exception of an unknown type");
   }
   return failed;
 }

@@ -15,7 +15,7 @@ Scan TimedSource::load(std::size_t index) const {
     const std::lock_guard lock(mutex_);
     if (index < times_.size() && times_[index]) {
       throw MethodError(fmt::format(
-          "method '{}' is marked online and asks for scan {} a second time; an online method reads "
+          "method '{}' is marked online and reads scan {} a second time; an online method reads "
           "each scan once. Keep its points in the method, or mark the variant as offline.",
           rule_->method, index));
     }

@@ -68,7 +68,7 @@ std::string facts_html(const ResultsRecord& record, const RunResults& results) {
   html += fact("Controls",
                !checked ? "not checked"
                : off    ? "off"
-                        : "as they must be",
+                        : "expected scores",
                off ? join(results.control_problems, "; ") : "",
                off       ? "bad"
                : checked ? "good"
@@ -101,7 +101,7 @@ std::string methods_html(const RunResults& results) {
   }
   table.notes.push_back(
       rate_units_text(shown) +
-      " Bold: best, underlined: second; controls stand below and are not ranked. (4/5): the mean "
+      " Bold: best, underlined: second; controls are listed below and not ranked. (4/5): the mean "
       "is over the 4 of 5 sequences that have a value. Click a heading to sort.");
   add_change_notes(results, table);
   return html_table(table);
@@ -115,7 +115,7 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
   for (const TextTable& table : make_tables(results, options)) html += html_table(table);
   options.what = {"published"};
   for (const TextTable& table : make_tables(results, options)) {
-    html += "<details><summary>What papers print</summary>\n" + html_table(table) + "</details>\n";
+    html += "<details><summary>Published results</summary>\n" + html_table(table) + "</details>\n";
   }
   std::string intervals;
   for (const TextTable& table : full_column_tables(results)) {

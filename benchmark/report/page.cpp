@@ -110,8 +110,8 @@ std::string points_html(const PageRequest& request, const Points& points) {
   for (const std::string& name : points.unopened) {
     html += "<p class=\"bad\">" +
             html_text("The points of " + name +
-                      " are not here: its data could not be opened again. `raymoval report` says "
-                      "why; --data says where it is.") +
+                      " are missing: its data could not be opened again. `raymoval report` prints "
+                      "the reason; name its folder with --data.") +
             "</p>\n";
   }
   if (!request.with_points) {
@@ -119,8 +119,8 @@ std::string points_html(const PageRequest& request, const Points& points) {
   }
   if (points.scenes.empty()) {
     return html +
-           "<p>No points to show: nothing that was removed is kept. Start the same command "
-           "again with <code>--keep-removals</code>, then make the report again.</p>\n";
+           "<p>No points to show: no removals were stored. Start the same command again with "
+           "<code>--keep-removals</code>, then make the report again.</p>\n";
   }
   return html + std::string(page_file("view.html")) +
          "<noscript><p>The 3-D view needs JavaScript.</p></noscript>\n";

@@ -141,7 +141,7 @@ std::string failures_html(const RunResults& results) {
             " <span class=\"badge bad\">" + status_name(cell.status) + "</span></h3>\n<p>" +
             html_text(cell.reason) + "</p>\n";
     if (!cell.output_tail.empty()) {
-      html += "<details open><summary>The end of what it printed</summary><pre>" +
+      html += "<details open><summary>Last lines of its output</summary><pre>" +
               html_text(cell.output_tail) + "</pre></details>\n";
     }
     html += "</div>\n";
@@ -181,7 +181,7 @@ std::string comparison_html(const Comparison& comparison, const std::string& nam
 }
 
 std::string configuration_html(const ResultsRecord& record, const MethodRegistry& methods) {
-  return methods_part(record.run, methods) + "<h3>Data and measure</h3>\n" +
+  return methods_part(record.run, methods) + "<h3>Data and protocols</h3>\n" +
          sequences_part(record) + protocols_part(record.run) + machine_part(record.run) +
          "<details><summary>Keys of the cells</summary>\n" +
          html_table(key_table(record), TableHeight::kScrolled) + "</details>\n";

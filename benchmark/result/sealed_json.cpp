@@ -38,7 +38,7 @@ void write_sealed(const std::filesystem::path& path, ordered_json json) {
 }
 
 ordered_json read_sealed(const std::filesystem::path& path) {
-  const std::string remedy = " Run `raymoval run` again with the same --out to make it anew.";
+  const std::string remedy = " Run `raymoval run` again with the same --out to rewrite it.";
   ordered_json json = parsed(read_text(path), path);
   if (!json.is_object() || !json.contains("checksum") || !json["checksum"].is_string()) {
     throw DataError(path.string() +

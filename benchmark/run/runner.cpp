@@ -41,8 +41,8 @@ ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& fo
 void say_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
   if (lock.is_held()) return;
   suite.say("warning: the file system of " + suite.options().out.string() +
-            " has no locks, so that nothing keeps another run from writing there. Start none "
-            "before this one has ended.");
+            " has no locks, so another run could write there at the same time. Start none before "
+            "this run has ended.");
 }
 
 /// Does the work of a run. If its folder was moved, any write error is reported as the moved

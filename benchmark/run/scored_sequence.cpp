@@ -65,8 +65,9 @@ ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
 std::string pose_fit_line(const std::optional<PoseFitRecord>& fit) {
   if (!fit || registration::is_within_limits(fit->median_m, fit->worst_m)) return "";
   return "poses fit to " + fixed_text(fit->median_m, 3) + " m (worst pair of scans " +
-         fixed_text(fit->worst_m, 3) + " m); where they do not, methods remove static points. " +
-         "`raymoval inspect` says more.";
+         fixed_text(fit->worst_m, 3) +
+         " m); where poses do not fit, methods remove static points. " +
+         "`raymoval inspect` shows details.";
 }
 
 ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests,

@@ -255,8 +255,9 @@ void SequenceRuns::repeat(ScoredSequence& scored, CellIndex index, int round) {
   }
   if (!repeat) return;
   if (repeat->digest != finished.cell->masks->digest) {
-    return fail_repeat(index, round, CellStatus::kFailed,
-                       "it removed other points than before, and must always remove the same");
+    return fail_repeat(
+        index, round, CellStatus::kFailed,
+        "it removed other points than in the first run, but must always remove the same");
   }
   finished.repeats.push_back(repeat->measured);
 }

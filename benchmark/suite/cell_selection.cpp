@@ -43,7 +43,7 @@ std::vector<bool> select_cells(const CellSelection& selection,
       chosen[i] = any = true;
     }
     if (!any) {
-      throw UsageError("--only '" + pattern + "' fits no cell of this " + of + "." +
+      throw UsageError("--only '" + pattern + "' matches no cell of this " + of + "." +
                        suggestion(pattern, cells));
     }
   }

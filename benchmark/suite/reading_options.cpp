@@ -47,62 +47,58 @@ const std::vector<ReadingOption>& reading_options() {
        "First and last frame and the step between frames; each may be left out",
        [](Options& o, Text, Text text) { o.frames = parse_frame_range(text); }},
       {"poses", "FILE",
-       "Pose file: a name in the sequence folder, or a path; the word identity for a sensor that "
-       "stands",
+       "Pose file: a name in the sequence folder, or a path; the word identity for a stationary "
+       "sensor",
        set_text<&Options::poses>},
       {"pose-format", "NAME",
-       "Form of the pose file (see `raymoval list pose-formats`; default: told by its content); "
-       "inverse, or NAME:inverse, if its poses take the world to the sensor",
+       "Format of the pose file (see `raymoval list pose-formats`; default: detected from its "
+       "content); inverse, or NAME:inverse, if its poses transform from the world to the sensor",
        set_text<&Options::pose_format>},
       {"T-sensor", "POSE",
-       "Pose of the sensor in the frame of the body that the poses are about: "
-       "x,y,z,qx,qy,qz,qw in metres, or a file with these or a 4 x 4 matrix",
+       "Pose of the sensor in the body frame, if the poses are those of a body: x,y,z,qx,qy,qz,qw "
+       "in metres, or a file with these or a 4 x 4 matrix",
        set_text<&Options::T_sensor>},
       {"sensor-origin", "X,Y,Z",
-       "Position of the sensor in the frame of the points, metres, where that is not the sensor's "
-       "own: points in the frame of a vehicle. Merged clouds of several sensors: "
-       "FIELD:NUMBER=X,Y,Z/NUMBER=X,Y,Z, where FIELD names the sensor of a point",
+       "Position of the sensor in the frame of the points, in metres, if points are in the frame "
+       "of a vehicle. For merged clouds of several sensors: FIELD:NUMBER=X,Y,Z/NUMBER=X,Y,Z; the "
+       "points have a field FIELD with the number of their sensor",
        [](Options& o, Text option, Text text) {
          o.sensor_origin = in_option(option, [&] { return parse_sensor_places(text); });
        }},
-      {"time-offset", "SECONDS", "Added to the times of the scans before poses are looked up",
+      {"time-offset", "SECONDS", "Added to the times of the scans before poses are interpolated",
        set_time_offset},
       {"max-gap", "SECONDS",
-       "Poses that are further apart in time are not interpolated (default: 1)",
+       "No pose is interpolated between two poses that are further apart in time (default: 1)",
        [](Options& o, Text option, Text text) { o.max_gap_s = parse_positive(option, text); }},
       {"points", "FRAME",
-       "The frame that points are stored in: sensor, or world if the poses are applied to them "
-       "already",
+       "Frame of the stored points: sensor, or world if the poses are already applied to them",
        [](Options& o, Text option, Text text) { o.points = parse_point_frame(option, text); }},
-      {"deskew", "",
-       "Take the motion of the sensor during a scan out of its points, by their times",
+      {"deskew", "", "Undo the motion of the sensor during each scan, by the times of its points",
        [](Options& o, Text, Text) { o.deskew = true; }},
       {"point-time-unit", "UNIT",
-       "What one of a point's time is: s, ms, us, ns, or a number of seconds (default: told by the "
-       "times of a scan)",
+       "Unit of the times of points: s, ms, us, ns, or a number of seconds (default: detected from "
+       "the times of a scan)",
        set_text<&Options::point_time_unit>},
-      {"topic", "NAME", "Topic of a recording with the scans (default: the only one with clouds)",
+      {"topic", "NAME", "Topic of the scans in a recording (default: the only topic with clouds)",
        set_text<&Options::topic>},
-      {"pose-topic", "NAME", "Topic of a recording with the poses (default: its odometry, else tf)",
+      {"pose-topic", "NAME", "Topic of the poses in a recording (default: its odometry, else tf)",
        set_text<&Options::pose_topic>},
       {"label-rule", "FILE",
-       "JSON file that says which labels move; or moving-now: what moves at the time of the scan, "
-       "where the data says it",
+       "JSON file that lists the moving labels; or moving-now: only objects that move at the time "
+       "of the scan, if the data records this",
        set_text<&Options::label_rule>},
       {"range", "MIN:MAX",
-       "Distance from the sensor in metres. Points outside it are not evaluated, but methods see "
-       "them (see --drop-ego)",
+       "Evaluated distance from the sensor in metres. Methods get the points outside it, too (see "
+       "--drop-ego)",
        [](Options& o, Text option, Text text) { o.range_m = parse_range(option, text); }},
       {"sensor", "NAME", "A known sensor (see `raymoval list sensors`), or the word estimated",
        set_text<&Options::sensor>},
       {"up", "AXIS",
-       "The direction that is up in the world of the poses: z, -y, or a vector x,y,z (default: "
-       "estimated)",
+       "Up direction in the world of the poses: z, -y, or a vector x,y,z (default: estimated)",
        set_text<&Options::up>},
       {"drop-ego", "WHERE",
-       "Leave out the points on the vehicle that carries the sensor, so that no method sees them: "
-       "auto (estimated), a radius (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in the sensor "
-       "frame",
+       "Drop the points on the ego vehicle before any method runs: auto (estimated), a radius "
+       "(2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in the sensor frame",
        [](Options& o, Text option, Text text) {
          o.drop_ego = in_option(option, [&] { return parse_ego_region(text); });
        }},
@@ -110,7 +106,7 @@ const std::vector<ReadingOption>& reading_options() {
        "The fields of a point in .bin and .npy scans, such as \"x y z intensity ring:u2 t:f8\" "
        "(float32 where no type is given)",
        set_text<&Options::point_layout>},
-      {"skip-bad-scans", "", "Leave out scans that are truncated or cannot be read, and say which",
+      {"skip-bad-scans", "", "Leave out, and list, scans that are truncated or cannot be read",
        [](Options& o, Text, Text) { o.skip_bad_scans = true; }},
       {"name", "NAME", "The name of the sequence in the results", set_text<&Options::name>}};
   return list;

@@ -97,7 +97,7 @@ SequenceRequest absolute_place(const SequenceRequest& place) {
     std::error_code error;
     const auto made = std::filesystem::absolute(path, error);
     if (!error) return made.lexically_normal();
-    throw DataError(path.string() + ": where it is cannot be told (" + error.message() + ").");
+    throw DataError(path.string() + ": cannot be made absolute (" + error.message() + ").");
   };
   if (!is_built_in(place.path)) absolute.path = make_absolute(place.path).string();
   SequenceOptions& options = absolute.options;
@@ -198,7 +198,7 @@ void check_given_once(const std::vector<Setting>& settings) {
     names.push_back(std::string(kProtocolPrefix) + request.name);
     if (request.name != given) continue;
     throw UsageError("--set names '" + given +
-                     "', which is no method of this run but a protocol: " + "write " +
+                     "', which is not a method of this run but a protocol: " + "write " +
                      names.back() + ".key=value.");
   }
   throw UsageError("--set names '" + given + "', which is not in this run." +
@@ -288,7 +288,7 @@ void set_protocol_option(std::vector<ProtocolRequest>& protocols, const Setting&
                   checked_value_from_text(owner, spec, setting.value));
     return;
   }
-  throw UsageError("--set names '" + setting.target + "', which is no protocol asked for." +
+  throw UsageError("--set names '" + setting.target + "', which is not a requested protocol." +
                    suggestion(target, names));
 }
 

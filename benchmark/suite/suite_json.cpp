@@ -264,7 +264,7 @@ void check_data_given(const Places& places, const std::string& where) {
   if (places.data_used == !places.data.empty()) return;
   throw UsageError(where +
                    (places.data_used
-                        ? ": this suite runs on data of yours: say where with --data ROOT."
+                        ? ": this suite runs on your own data: name its folder with --data ROOT."
                         : ": --data is given, but no path of this suite begins with {data}."));
 }
 

@@ -145,7 +145,7 @@ std::vector<TextTable> published_tables(const RunResults& results, const TableOp
 
 std::string controls_text(const RunResults& results) {
   return results.control_problems.empty()
-             ? "All controls are as they must be."
+             ? "All controls have their expected scores."
              : "CONTROLS ARE OFF: " + join(results.control_problems, "; ") + ".";
 }
 

@@ -183,14 +183,14 @@ TextTable interval_table(const RunResults& results, const std::string& protocol)
   }
   table.notes.push_back(
       "95 % of the replicates of a circular block bootstrap over scans; map and verdicts are held "
-      "fixed, so this is how much a rate hangs on which scans were counted.");
+      "fixed, so an interval shows how much a rate depends on the choice of scans.");
   return table;
 }
 
 TextTable reliability_table(const MethodReliability& method) {
   TextTable table{"Confidence of " + method.cell,
-                  "said to move",
-                  {{"", {"points", "mean said", "share that moves"}}}};
+                  "confidence",
+                  {{"", {"points", "mean confidence", "share that moves"}}}};
   for (std::size_t i = 0; i < kConfidenceBins; ++i) {
     const ReliabilityBin& bin = method.all.bins[i];
     const double width = 1.0 / static_cast<double>(kConfidenceBins);
@@ -201,12 +201,12 @@ TextTable reliability_table(const MethodReliability& method) {
                            number_or(bin.moving_share(), 3, "-")}});
   }
   const auto error = method.all.expected_error(), gap = method.all.mean_gap();
-  table.notes.push_back("By the points' labels, over " +
-                        counted_text(method.sequences, "sequence") +
-                        ". Expected calibration error " + (error ? fixed_text(*error, 5) : "-") +
-                        " (bins weighted by their points, of which nearly all stay); mean gap " +
-                        (gap ? fixed_text(*gap, 3) : "-") + " (bins of " +
-                        std::to_string(kFewestInBin) + " points or more count alike).");
+  table.notes.push_back(
+      "By the points' labels, over " + counted_text(method.sequences, "sequence") +
+      ". Expected calibration error " + (error ? fixed_text(*error, 5) : "-") +
+      " (bins weighted by their points, nearly all of which are kept); mean gap " +
+      (gap ? fixed_text(*gap, 3) : "-") + " (bins of " + std::to_string(kFewestInBin) +
+      " points or more count alike).");
   return table;
 }
 
@@ -227,22 +227,21 @@ std::vector<TextTable> compact_column_tables(const RunResults& results) {
     row.cells.push_back({worst_class(*method, "preservation")});
   }
   table.notes.push_back(
-      "In percent of points, all sequences together. precision: moving ones of the removed; "
-      "recall: "
-      "removed ones of the moving; residue: moving ones of the kept; preservation: kept ones of "
-      "the "
-      "static. Of the classes with " +
+      "In percent of points, all sequences together. precision: share of removed points that move; "
+      "recall: share of moving points that are removed; residue: share of kept points that move; "
+      "preservation: share of static points that are kept. Of the classes with " +
       std::to_string(kNamedClassPoints) +
-      " points or more, the mover least removed and the static class least kept. `raymoval table "
-      "RUN --columns` has every class, range and height.");
+      " points or more, the worst are shown. `raymoval table RUN --columns` has every class, range "
+      "and height.");
   return {table};
 }
 
 std::vector<TextTable> loss_tables(const RunResults& results) {
   const std::vector<const MethodColumns*> methods = shown_methods(results, false);
-  TextTable missed = loss_table(methods, "rejection", "Moving points that stay, in percent");
-  missed.notes.emplace_back("Lower is better; the darker, the more is lost.");
-  TextTable lost = loss_table(methods, "preservation", "Static points that go, in percent");
+  TextTable missed = loss_table(methods, "rejection", "Moving points that are kept, in percent");
+  missed.notes.emplace_back("Lower is better; darker is worse.");
+  TextTable lost =
+      loss_table(methods, "preservation", "Static points that are removed, in percent");
   lost.notes.emplace_back(
       "Counts are added up over all sequences. Heights are above the road under the sensor. "
       "`raymoval table RUN --columns` has classes by range and height too.");

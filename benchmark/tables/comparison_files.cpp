@@ -248,7 +248,7 @@ std::string comparison_in(const std::string& format, const Comparison& compariso
   if (format == "md") return comparison_markdown(comparison, subject);
   if (format == "junit") return comparison_junit(comparison);
   if (format == "json") return comparison_json(comparison, subject);
-  throw UsageError("--format " + format + ": is no way to write a comparison." +
+  throw UsageError("--format " + format + ": is not a format of a comparison." +
                    suggestion(format, comparison_formats()));
 }
 

@@ -126,8 +126,8 @@ std::vector<TextTable> ranking_tables(const RunResults& results, const TableOpti
   if (results.protocols.size() < 2 || ranked_methods(results).size() < 2) return {};
   TextTable table{"Ranking by protocol", "method"};
   table.notes.push_back(
-      "Ranks; what is displayed alike ties. change: places gained (+) or lost from the first "
-      "protocol to the one where most are; -: not in all sequences. Differences within the "
+      "Ranks; equal displayed values share a rank. change: places gained (+) or lost from the "
+      "first protocol to the one where most are; -: not in all sequences. Differences within the "
       "intervals are no ranking.");
   const bool several = results.sequences.size() > 1;
   if (!several || options.disagreements) {

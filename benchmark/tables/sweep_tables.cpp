@@ -74,7 +74,7 @@ std::vector<TextTable> sweep_tables(const RunResults& results, const TableOption
       }
       tables.push_back(sweep_table(grid, options));
       tables.back().notes.emplace_back(
-          "Each row is a point of the curve of what is kept against what is removed.");
+          "Each row is a point of the curve of kept static against removed moving points.");
       for (const std::string& line : flat_sweeps(results, sweep)) {
         tables.back().notes.push_back(line);
       }

@@ -44,7 +44,7 @@ std::vector<TextTable> failure_tables(const RunResults& results) {
 
 std::string side_by_side_note(int cells) {
   return "Up to " + std::to_string(cells) +
-         " cells ran at once, each with one thread: each is slower than alone.";
+         " cells ran in parallel, each with one thread: each is slower than alone.";
 }
 
 /// Time and memory of every method, with the least values marked.
@@ -84,7 +84,7 @@ TextTable stage_table(const MethodTimes& times) {
   add(overlap ? "sum over threads" : "total", whole, true);
   if (overlap) {
     table.rows.push_back(
-        {"time that passed", {{fixed_text(1000.0 * times.seconds / scans, 3)}, {"-"}}, true});
+        {"wall time", {{fixed_text(1000.0 * times.seconds / scans, 3)}, {"-"}}, true});
   }
   table.notes.push_back("Mean over " + grouped_text(times.scans) +
                         " scans. Reading scans (load) took another " +

@@ -29,8 +29,8 @@ void check_no_link_to_nothing(const fs::path& path) {
     if (!means_absent(errno)) throw_cannot_look_at(at, errno);
     std::error_code ignored;
     throw DataError(at.string() + ": is a link to " + fs::read_symlink(at, ignored).string() +
-                    ", which is not there. Fetch the data it stands for (such as `git annex get` "
-                    "or `dvc pull`), or remove the link.");
+                    ", which is not there. Fetch the data (such as `git annex get` or `dvc pull`), "
+                    "or remove the link.");
   }
 }
 
@@ -43,10 +43,9 @@ const char* special_name(mode_t mode) {
 }  // namespace
 
 void throw_cannot_look_at(const fs::path& path, int reason) {
-  throw UnreadableError(path.string() + ": cannot be looked at (" +
-                        std::generic_category().message(reason) +
-                        "). Check the rights of the folders above it, and that its disk or share "
-                        "answers.");
+  throw UnreadableError(
+      path.string() + ": cannot be accessed (" + std::generic_category().message(reason) +
+      "). Check the rights of the folders above it, and that its disk or share is reachable.");
 }
 
 bool means_absent(int reason) {

@@ -54,8 +54,8 @@ FileLock::State FileLock::take(Mode mode) {
     remove_if_new();
     throw DataError(path_.string() + ": cannot be locked (" +
                     std::generic_category().message(reason) +
-                    "), so that nobody knows whether another process works there. Check that the "
-                    "file is yours, and that its disk or share answers and gives locks.");
+                    "), so another process may be using it. Check that you own the file, and that "
+                    "its disk or share is reachable and supports locks.");
   }
   write_holder();
   return State::kHeld;
@@ -96,7 +96,7 @@ std::string FileLock::holder() const {
   } catch (const DataError&) {
     // It went away meanwhile.
   }
-  return "a process that did not say its name yet";
+  return "a process that has not written its name yet";
 }
 
 void FileLock::write_holder() const {

@@ -50,16 +50,16 @@ Descriptor opened_folder(const std::filesystem::path& folder) {
   Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.valid() || errno == EACCES) return opened;
   throw DataError(folder.string() + ": cannot be opened (" + reason_text(errno) +
-                  "), so that nothing can be put on the disk there.");
+                  "), so files in it cannot be synchronised to the disk.");
 }
 
 void sync_names(const Descriptor& opened, const std::filesystem::path& folder) {
   if (!opened.valid() || ::fsync(opened.get()) == 0) return;
   // A file system that cannot do this has its own ways.
   if (errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return;
-  throw DataError(folder.string() + ": the names in it cannot be put on the disk (" +
+  throw DataError(folder.string() + ": it cannot be synchronised to the disk (" +
                   reason_text(errno) +
-                  "). What was written there may be gone when the machine stops. Check the disk.");
+                  "). New files in it may be lost if the machine stops. Check the disk.");
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ void FileWriter::append(std::string_view content) {
 
 void FileWriter::overwrite(std::uint64_t offset, std::string_view content) {
   if (offset + content.size() > size_) {
-    throw InternalError(path_.string() + ": overwrites what was not written");
+    throw InternalError(path_.string() + ": overwrites bytes that were not written");
   }
   put(content, offset);
 }
@@ -128,7 +128,7 @@ std::filesystem::path output_target(const std::filesystem::path& named) {
                     "). Remove the link, or name another file.");
   }
   if (is_file(target)) return target;
-  throw DataError(where + target.string() + ", which is no file. Name another file.");
+  throw DataError(where + target.string() + ", which is not a file. Name another file.");
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -44,7 +44,7 @@ OpenFile open_plain(const std::filesystem::path& path) {
     if (means_absent(errno)) throw DataError(problem);
     throw UnreadableError(problem);
   }
-  if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is no plain file.");
+  if (!S_ISREG(status.st_mode)) throw DataError(path.string() + ": is not a regular file.");
   opened.size = static_cast<std::uintmax_t>(status.st_size);
   return opened;
 }
@@ -56,9 +56,9 @@ void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content
   const auto got = read_at(opened.file.get(), content.data(), content.size(), offset);
   if (!got) throw UnreadableError(path.string() + ": reading failed (" + system_reason() + ").");
   if (*got == content.size()) return;
-  throw DataError(path.string() +
-                  ": has become shorter while it was read. Wait until whatever writes it has "
-                  "ended.");
+  throw DataError(
+      path.string() +
+      ": became shorter while it was read. Wait until the program that writes it has ended.");
 }
 
 /// Refuses what cannot be read whole. A copy that broke off may have any size: it then has holes.
@@ -71,11 +71,11 @@ void check_can_be_read_whole(const OpenFile& opened, const std::filesystem::path
   const auto memory = static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PHYS_PAGES))) *
                       static_cast<std::uintmax_t>(std::max(0L, ::sysconf(_SC_PAGESIZE)));
   if (!holes && opened.size <= memory) return;
-  throw DataError(path.string() + ": has " + grouped_text(opened.size) + " bytes, " +
-                  (holes ? "of which most were never written: it looks like a copy that broke off. "
-                           "Copy it again."
-                         : "more than the memory of this machine. Check that it is the file you "
-                           "mean."));
+  throw DataError(
+      path.string() + ": has " + grouped_text(opened.size) + " bytes, " +
+      (holes ? "most of which were never written: the copy seems incomplete. Copy it again."
+             : "more than the memory of this machine. Check that it is the file you "
+               "mean."));
 }
 
 template <class Container>

@@ -99,10 +99,10 @@ void Replacements::give_up(const One& failed, int reason) {
   std::string changed;
   for (One& one : all_) {
     if (one.way == Way::kNone || take_back(one)) continue;
-    changed += " " + one.target.string() + " was replaced and cannot be put back (" +
+    changed += " " + one.target.string() + " was replaced and cannot be restored (" +
                std::generic_category().message(errno) + ")";
     const fs::path& before = one.way == Way::kExchanged ? one.part.place : one.aside;
-    changed += one.way == Way::kNew ? "." : "; what it held is in " + before.string() + ".";
+    changed += one.way == Way::kNew ? "." : "; its old content is in " + before.string() + ".";
   }
   throw DataError(failed.target.string() + ": cannot be written (" +
                   std::generic_category().message(reason) + ")." +

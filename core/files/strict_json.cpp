@@ -28,14 +28,14 @@ class Checker {
     using Event = typename Json::parse_event_t;
     const bool starts = event == Event::object_start || event == Event::array_start;
     if (starts && depth >= kMostJsonDepth) {  // The outermost has depth 0.
-      throw ConfigurationError(where_ + ": lists and objects stand more than " +
-                               std::to_string(kMostJsonDepth) + " deep in one another.");
+      throw ConfigurationError(where_ + ": lists and objects are nested more than " +
+                               std::to_string(kMostJsonDepth) + " deep.");
     }
     if (event == Event::object_start) keys_.emplace_back();
     if (event == Event::object_end) keys_.pop_back();
     if (event == Event::key && !keys_.back().insert(value.template get<std::string>()).second) {
       throw ConfigurationError(where_ + ": the key " + value.dump() +
-                               " stands twice in one object; leave one out.");
+                               " occurs twice in one object; leave one out.");
     }
     const bool text = event == Event::key || (event == Event::value && value.is_string());
     if (text && !zero_bytes_ &&

@@ -22,7 +22,7 @@ std::vector<std::uint16_t> read_ids(const nlohmann::json& json, const std::strin
     if (!item.is_number_integer() || item.get<std::int64_t>() < 0 ||
         item.get<std::int64_t>() > 0xFFFF) {
       throw ConfigurationError(where + ": " + item.dump() +
-                               " is no label id: expected whole numbers from 0 to 65535.");
+                               " is not a label id: expected whole numbers from 0 to 65535.");
     }
     ids.push_back(item.get<std::uint16_t>());
   }

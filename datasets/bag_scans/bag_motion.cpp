@@ -67,8 +67,8 @@ class TopicPosesReader {
     if (before == now) return;
     throw DataError(place + ": its " + field + " is '" + now + "', that of earlier messages '" +
                     before +
-                    "'; poses of different frames are no trajectory. Filter the bag so "
-                    "that one is left, or give the poses as a file (--poses).");
+                    "'; a trajectory has one frame. Filter the bag to one frame, or give the poses "
+                    "as a file (--poses).");
   }
 
   void finish() {
@@ -81,7 +81,7 @@ class TopicPosesReader {
     if (!skipped.empty()) result_.losses.push_back(where + skipped);
     if (unstamped_ > 0) {
       result_.notes.push_back(where + counted_text(unstamped_, "message") +
-                              " without a stamp; the time of recording is taken.");
+                              " without a stamp; the time of recording is used.");
     }
     result_.trajectory = ordered_trajectory(std::move(stamped_));
   }
@@ -102,10 +102,10 @@ std::vector<MotionStep> body_to_sensor(const Bag& bag, const TopicPoses& poses,
   if (query.settings.T_body_sensor) return fixed(*query.settings.T_body_sensor);
   if (result.point_frame == PointFrame::kWorld || poses.child == query.cloud_frame) return {};
   if (poses.child.empty()) {
-    result.notes.push_back(result.where +
-                           ": its poses do not say of which frame they are, and are taken for "
-                           "those of the sensor. If they are of another one, say where the sensor "
-                           "is on it with --T-sensor.");
+    result.notes.push_back(
+        result.where +
+        ": its poses name no child frame and are used as those of the sensor. If they are those of "
+        "a body, give the pose of the sensor on it with --T-sensor.");
     return {};
   }
   const FrameTree tree(bag);
@@ -113,12 +113,12 @@ std::vector<MotionStep> body_to_sensor(const Bag& bag, const TopicPoses& poses,
   if (!links) {
     throw UsageError(result.where + ": the poses are of frame '" + poses.child +
                      "', the points in frame '" + query.cloud_frame +
-                     "', and the bag does not say how one lies in the other. Say it with "
-                     "--T-sensor x,y,z,qx,qy,qz,qw, the pose of the sensor in '" +
+                     "', and the bag has no transform between them. Give it with --T-sensor "
+                     "x,y,z,qx,qy,qz,qw, the pose of the sensor in '" +
                      poses.child + "' (0,0,0,0,0,0,1 if they are the same).");
   }
   result.notes.push_back(result.where + ": the poses are of frame '" + poses.child +
-                         "'; where the sensor is on it ('" + query.cloud_frame +
+                         "'; the pose of the sensor in it ('" + query.cloud_frame +
                          "') is taken from tf.");
   for (std::string& loss : tree.losses()) result.losses.push_back(std::move(loss));
   return *links;
@@ -137,8 +137,8 @@ BagMotion motion_of_topic(const Bag& bag, std::size_t topic, const BagPoseQuery&
       query.point_frame.value_or(in_world ? PointFrame::kWorld : PointFrame::kSensor);
   if (in_world && !query.point_frame) {
     result.notes.push_back(result.where + ": the points are in frame '" + poses.frame +
-                           "', which its poses are told in: they stand in the world. If they do "
-                           "not, say --points sensor.");
+                           "', the world frame of its poses: the poses are already applied. If "
+                           "they are not, use --points sensor.");
   }
   std::vector<MotionStep> links = body_to_sensor(bag, poses, query, result);
   links.insert(links.begin(), {std::move(poses.trajectory)});
@@ -158,20 +158,20 @@ BagMotion motion_of_tf(const Bag& bag, const BagPoseQuery& query) {
   const std::string frame = "'" + query.cloud_frame + "'";
   if (!tree.knows(query.cloud_frame)) {
     throw_no_poses(bag, tree.empty() ? "No topic has odometry, poses or tf."
-                                     : "tf does not know the frame of the points, " + frame + ".");
+                                     : "tf has no frame of the points, " + frame + ".");
   }
   if (query.settings.T_body_sensor) {
-    throw UsageError(bag_name(bag) +
-                     ": --T-sensor says where the sensor is on the body that has the poses, but "
-                     "the poses are those of tf, which knows it. Leave it out, or name the poses "
-                     "with --pose-topic or --poses.");
+    throw UsageError(
+        bag_name(bag) +
+        ": --T-sensor is the pose of the sensor on a body, but the poses are from tf, which has "
+        "the frame of the sensor. Leave it out, or name the poses with --pose-topic or --poses.");
   }
   const std::vector<std::string> chain = tree.chain(query.cloud_frame);
   const bool dynamic = std::any_of(chain.begin(), chain.end() - 1,
                                    [&](const std::string& name) { return tree.is_dynamic(name); });
   if (!dynamic) {
-    throw_no_poses(bag, "tf says only how the frame of the points, " + frame + ", is fixed in '" +
-                            chain.back() + "', not how that moves.");
+    throw_no_poses(bag, "tf has only a fixed transform of the frame of the points, " + frame +
+                            ", in '" + chain.back() + "', and no motion of that frame.");
   }
   BagMotion result;
   result.name = "tf " + chain.back() + " -> " + query.cloud_frame;

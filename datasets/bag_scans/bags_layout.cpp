@@ -131,7 +131,7 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
     } else if (head->header.frame_id != heads.frame) {
       throw DataError(message_place(bag, topic, message) + ": its points are in frame '" +
                       head->header.frame_id + "', those of earlier messages in '" + heads.frame +
-                      "'; one sensor has one frame. Filter the bag so that one is left.");
+                      "'; one sensor has one frame. Filter the bag to one frame.");
     }
     heads.messages.push_back(message);
     heads.stamps.push_back(head->header.stamp);
@@ -169,7 +169,7 @@ std::size_t scan_topic(const Bag& bag, const std::optional<std::string>& named) 
                    ": no topic has scans, which are of type "
                    "sensor_msgs/PointCloud2 or livox_ros_driver/CustomMsg. " +
                    topics_sentence(bag) +
-                   " Packets of a driver are made into clouds by replaying the bag with it.");
+                   " To convert packets of a driver into clouds, replay the bag with the driver.");
 }
 
 /// Takes the labels of the file beside the recording, if it is there.
@@ -260,7 +260,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   const SequenceSettings settings = settings_of(path, options);
   const fs::path folder = is_folder(path) ? path : folder_of(path);
   if (settings.poses && options.pose_topic) {
-    throw UsageError(path.string() + ": the poses are said to be in " + *settings.poses +
+    throw UsageError(path.string() + ": poses are given both in " + *settings.poses +
                      " (--poses) and on the topic " + *options.pose_topic +
                      " (--pose-topic). Leave one of them out.");
   }
@@ -309,8 +309,8 @@ Layout bags_layout() {
   layout.name = "bags";
   layout.expected = "a recording of ROS messages (.bag, .mcap, .db3, or the folder of ROS 2)";
   layout.forms = {{"FILE.bag", "a ROS 1 bag with clouds and poses (see --topic, --pose-topic)"},
-                  {"FILE.mcap", "the same as MCAP, of ROS 1 or ROS 2"},
-                  {"FILE.db3", "the same as a database of ROS 2"},
+                  {"FILE.mcap", "an MCAP file of ROS 1 or ROS 2"},
+                  {"FILE.db3", "a database of ROS 2"},
                   {"FOLDER", "a recording of ROS 2 with its metadata.yaml"}};
   layout.expected_labels = std::string("a file ") + kIndexedLabelsFile +
                            " beside the recording with lines of these scans";

@@ -98,15 +98,15 @@ std::vector<std::string> FrameTree::chain(const std::string& frame) const {
   for (auto found = edges_.find(frame); found != edges_.end(); found = edges_.find(frames.back())) {
     const Edge& edge = found->second;
     if (!edge.other_parent.empty()) {
-      throw DataError(where + "frame " + frames.back() + " is said to be in " + edge.parent +
-                      " and in " + edge.other_parent +
-                      ", and a frame has one parent. Name a topic with poses (--pose-topic), or a "
-                      "file (--poses).");
+      throw DataError(
+          where + "frame " + frames.back() + " has two parents, " + edge.parent + " and " +
+          edge.other_parent +
+          "; expected one. Name a topic with poses (--pose-topic), or a file (--poses).");
     }
     if (std::find(frames.begin(), frames.end(), edge.parent) != frames.end()) {
-      throw DataError(where + "frame " + edge.parent +
-                      " is above itself. Name a topic with poses (--pose-topic), or a file "
-                      "(--poses).");
+      throw DataError(
+          where + "frame " + edge.parent +
+          " is its own ancestor. Name a topic with poses (--pose-topic), or a file (--poses).");
     }
     frames.push_back(edge.parent);
   }
@@ -160,7 +160,7 @@ void FrameTree::read_links(std::map<std::string, MotionStep>& links) const {
         if (rigid) {
           found->second.push_back({pose.stamp, *rigid});
         } else {
-          skipped_.add(place + ": the pose of " + pose.child + " is no rigid motion.");
+          skipped_.add(place + ": the pose of " + pose.child + " is not a rigid motion.");
         }
       }
     });

@@ -36,8 +36,8 @@ std::pair<Nanoseconds, Line> parse_line(std::string_view text, std::size_t numbe
   const auto stamp = parse_stamp(without_blanks(fields[0]), TimeUnit::kNanoseconds);
   if (!stamp) {
     throw DataError(place + ": '" + std::string(fields[0].substr(0, 40)) +
-                    "' is no time; expected the time of a scan in nanoseconds, then the numbers of "
-                    "its points that move, between commas.");
+                    "' is not a time; expected the time of a scan in nanoseconds, then the numbers "
+                    "of its points that move, between commas.");
   }
   Line line{number, {}};
   for (std::size_t i = 1; i < fields.size(); ++i) {
@@ -45,7 +45,7 @@ std::pair<Nanoseconds, Line> parse_line(std::string_view text, std::size_t numbe
     if (!point) {
       throw DataError(place + ", field " + std::to_string(i + 1) + ": '" +
                       std::string(fields[i].substr(0, 40)) +
-                      "' is no number of a point; expected a whole number from 0.");
+                      "' is not the number of a point; expected a whole number from 0.");
     }
     line.moving.push_back(*point);
   }
@@ -134,7 +134,7 @@ LabelRule with_unlabelled_ignored(LabelRule rule) {
   if (std::find(rule.moving.begin(), rule.moving.end(), unlabelled) != rule.moving.end()) {
     throw ConfigurationError(
         "label rule '" + rule.name + "': label id 0 moves, but in " + kIndexedLabelsFile +
-        " it stands for scans that nobody labelled; leave it out, or add it to \"ignored\".");
+        " it means scans without labels; leave it out, or add it to \"ignored\".");
   }
   const auto place = std::lower_bound(rule.ignored.begin(), rule.ignored.end(), unlabelled);
   if (place == rule.ignored.end() || *place != unlabelled) rule.ignored.insert(place, unlabelled);

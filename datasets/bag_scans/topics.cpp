@@ -38,7 +38,7 @@ std::size_t named_topic(const Bag& bag, const std::string& name, const TopicWish
   }
   if (fitting.size() > 1) {
     throw UsageError(asked + "there are several topics of this name, with different types: " +
-                     join(texts_of(bag, fitting)) + ". Filter the bag so that one is left.");
+                     join(texts_of(bag, fitting)) + ". Filter the bag to one of them.");
   }
   return fitting[0];
 }

@@ -20,7 +20,7 @@ namespace {
 [[noreturn]] void throw_unreadable(const std::filesystem::path& path, int reason) {
   throw UnreadableError(path.string() + ": cannot be read (" +
                         std::generic_category().message(reason) +
-                        "). Check its rights, and that its disk or share answers.");
+                        "). Check its rights, and that its disk or share is reachable.");
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ std::string BagFile::read(std::uint64_t offset, std::uint64_t size) const {
   if (bytes.size() == size) return bytes;
   throw DataError(place(offset) + ": " + grouped_text(size) +
                   " bytes should follow, but the file " + "has " + grouped_text(size_) +
-                  " bytes; it is cut or damaged. Copy it again.");
+                  " bytes; it is truncated or damaged. Copy it again.");
 }
 
 std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before) {

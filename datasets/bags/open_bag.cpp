@@ -72,7 +72,7 @@ class PackedBag : public Bag {
   [[nodiscard]] std::vector<std::string> damage() const override {
     std::vector<std::string> all = bag_->damage();
     if (!problem_.empty()) {
-      all.insert(all.begin(), path_.string() + ": " + problem_ + "; what stands before is read.");
+      all.insert(all.begin(), path_.string() + ": " + problem_ + "; everything before it is read.");
     }
     return all;
   }
@@ -94,15 +94,15 @@ BagContainer container_of(const fs::path& file) {
   if (head.starts_with(kRos1Magic)) return BagContainer::kRos1;
   if (head.starts_with("#ROSBAG V1") || head.starts_with("#ROSLOG V1")) {
     throw UsageError(file.string() + ": is a bag of version " + head.substr(9, 3) +
-                     ", from before 2010; only 2.0 is read. `rosbag fix` writes it anew.");
+                     ", from before 2010; only 2.0 is read. `rosbag fix` rewrites it.");
   }
   if (head.starts_with(kMcapMagic)) return BagContainer::kMcap;
   if (head.starts_with("SQLite format 3")) return BagContainer::kDb3;
   if (is_zstd(head)) return BagContainer::kZstd;
   throw DataError(
       file.string() +
-      ": does not begin as a recording does (a ROS 1 bag, MCAP, a database of SQLite, or "
-      "one of these packed by zstd); it is damaged or something else. Copy it again.");
+      ": does not begin as a recording does (a ROS 1 bag, MCAP, a database of SQLite, or one of "
+      "these compressed by zstd); it is damaged or something else. Copy it again.");
 }
 
 /// Whether a name ends as those of recordings do.
@@ -123,7 +123,7 @@ std::unique_ptr<Bag> open_inside(const fs::path& file) {
     case BagContainer::kZstd:
       break;
   }
-  throw UsageError(file.string() + ": is packed twice. Unpack it by `zstd --decompress`.");
+  throw UsageError(file.string() + ": is compressed twice. Decompress it by `zstd --decompress`.");
 }
 
 std::unique_ptr<Bag> open_file(const fs::path& file) {
@@ -147,16 +147,15 @@ std::unique_ptr<Bag> open_folder(const fs::path& folder) {
     if (has_bag_ending(entry) && inside.size() < 5) inside.push_back(entry.filename().string());
   }
   if (inside.empty()) {
-    throw DataError(folder.string() +
-                    ": has no metadata.yaml and no .db3, .mcap or .bag file, so it is no "
-                    "recording.");
+    throw DataError(
+        folder.string() +
+        ": has no metadata.yaml and no .db3, .mcap or .bag file, so it is not a recording.");
   }
-  throw UsageError(folder.string() +
-                   ": has no metadata.yaml, which says what belongs to the "
-                   "recording, and its files have not one name with _0, _1 and so on behind it. "
-                   "Name one of its files (" +
-                   join(inside) + "), or write it by `ros2 bag reindex " +
-                   folder.filename().string() + "`.");
+  throw UsageError(
+      folder.string() +
+      ": has no metadata.yaml, which lists the files of the recording, and its files do not share "
+      "one name with the endings _0, _1 and so on. Name one of its files (" +
+      join(inside) + "), or write it by `ros2 bag reindex " + folder.filename().string() + "`.");
 }
 
 }  // namespace

@@ -20,12 +20,12 @@ constexpr std::uint64_t kMostGain = 1000;
 constexpr std::uint64_t kFreeGain = std::uint64_t{1} << 20;
 
 std::string too_much(std::uint64_t stated) {
-  return "it unpacks to more than the " + grouped_text(stated) + " bytes that it is said to have";
+  return "it decompresses to more than the " + grouped_text(stated) + " bytes that it should have";
 }
 
 std::string too_little(std::uint64_t got, std::uint64_t stated) {
-  return "it unpacks to " + grouped_text(got) + " of the " + grouped_text(stated) +
-         " bytes that it is said to have";
+  return "it decompresses to " + grouped_text(got) + " of the " + grouped_text(stated) +
+         " bytes that it should have";
 }
 
 /// What a bzip2 stream is at.
@@ -90,7 +90,7 @@ std::uint64_t most_unpacked_size(std::uint64_t packed) {
 
 void check_unpacked_size(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
   if (unpacked <= most_unpacked_size(packed)) return;
-  throw DataError(where + " of " + grouped_text(packed) + " bytes is said to unpack to " +
+  throw DataError(where + " of " + grouped_text(packed) + " bytes should decompress to " +
                   grouped_text(unpacked) +
                   ", beyond the limit of 1 GiB and of 1,000 times its bytes and 1 MiB; the file "
                   "looks damaged. Copy it again.");
@@ -224,7 +224,7 @@ std::string unpack_zstd_message(std::string_view packed, const std::string& wher
   Unpacker unpacker;
   std::string problem = unpacker.add(packed, most, [&](std::string_view piece) { bytes += piece; });
   if (unpacker.made() > most) {
-    problem = "it unpacks to more than " + grouped_text(most) +
+    problem = "it decompresses to more than " + grouped_text(most) +
               " bytes, the limit of 1 GiB and of 1,000 times its bytes and 1 MiB";
   }
   if (problem.empty()) problem = unpacker.end();
@@ -244,11 +244,11 @@ std::string unpack_zstd_file(const BagFile& file, std::uint64_t most,
   for (std::uint64_t at = 0; at < file.size() && problem.empty(); at += kPiece) {
     problem = unpacker.add(file.read_up_to(at, kPiece), most, take);
     if (unpacker.made() <= most) continue;
-    throw DataError(file.path().string() + ": unpacks to more than " + grouped_text(most) +
+    throw DataError(file.path().string() + ": decompresses to more than " + grouped_text(most) +
                     " bytes, which is more than is expected of a recording of " +
                     grouped_text(file.size()) +
-                    " bytes or than the disk has room for. Unpack it by `zstd --decompress` to "
-                    "where there is room, and name that.");
+                    " bytes or than the disk has room for. Decompress it by `zstd --decompress` on "
+                    "a disk with room, and name that file.");
   }
   return problem.empty() ? unpacker.end() : problem;
 }

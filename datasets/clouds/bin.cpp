@@ -28,8 +28,8 @@ std::string fitting_sizes(std::uintmax_t bytes) {
     sizes.push_back(std::to_string(4 * floats) + " (" + std::to_string(floats) + " float32)");
   }
   if (sizes.empty()) return "";
-  return " It would fit points of " + join(sizes, " or ") +
-         " bytes: if they are such, name their fields with --point-layout.";
+  return " It fits points of " + join(sizes, " or ") +
+         " bytes: if its points are such, name their fields with --point-layout.";
 }
 
 /// The largest difference between the shares of both up to any value: 0 alike, 1 apart.
@@ -84,7 +84,7 @@ std::string double_layout(const std::filesystem::path& path) {
 std::string double_text(const std::filesystem::path& path) {
   const std::string layout = double_layout(path);
   if (layout.empty()) return "";
-  return " Its numbers look like float64: say --point-layout \"" + layout + "\".";
+  return " Its numbers look like float64: use --point-layout \"" + layout + "\".";
 }
 
 /// @throws DataError naming the sizes of a point that would fit
@@ -267,8 +267,8 @@ void check_bin_width(const std::vector<std::filesystem::path>& scans,
                   " bytes); expected 4 (x y z reflectance, 16 bytes), under which coordinates and "
                   "other fields would be mixed. Name the fields of a point: --point-layout \"" +
                   layout +
-                  "\", with names instead of _ for what is worth keeping. If there are 4 "
-                  "all the same, say --point-layout \"x y z intensity\".");
+                  "\", with names instead of _ for fields to keep. If there are 4 nevertheless, "
+                  "use --point-layout \"x y z intensity\".");
 }
 
 CloudFormat bin_format() {

@@ -23,7 +23,7 @@ constexpr const char* kPacked = ".gz";
     throw UsageError(path.string() + ": " + text);
   }
   throw UsageError(path.string() + ": '" + path.extension().string() +
-                   "' is no known cloud format. Supported are: " + join(known) + ".");
+                   "' is not a known cloud format. Supported are: " + join(known) + ".");
 }
 
 /// The known formats, the usual first.
@@ -62,8 +62,8 @@ std::string conversion_text(const std::filesystem::path& path) {
   };
   static const std::map<std::string, std::string> texts = {
       {".laz",
-       "LAZ, compressed LAS, is not read or written. Unpack it first: laszip -i in.laz -o out.las, "
-       "or pdal translate in.laz out.las."},
+       "LAZ, compressed LAS, is not read or written. Decompress it first: laszip -i in.laz -o "
+       "out.las, or pdal translate in.laz out.las."},
       {".e57", "E57 is not read. " + each_scan("e57")},
       {".ptx", "PTX is not read. " + each_scan("ptx")},
       {".pts", "PTS is not read. " + each_scan("pts")},

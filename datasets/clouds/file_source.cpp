@@ -125,8 +125,8 @@ std::vector<std::uint32_t> IntensityLabelSource::labels(const Scan& scan) const 
     if (!(value >= 0.0F && value < kExactLimit) || value != std::floor(value)) {
       throw DataError(frame.path.string() + ": point " + grouped_text(position) +
                       " has intensity " + number_text(static_cast<double>(value)) +
-                      ", which is no label (a whole number from 0 to 16,777,215). If intensity is "
-                      "the strength of the return here, leave the label rule out.");
+                      ", which is not a label (a whole number from 0 to 16,777,215). If intensity "
+                      "is the strength of the return here, leave the label rule out.");
     }
     words.push_back(static_cast<std::uint32_t>(value));
   }

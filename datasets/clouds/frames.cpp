@@ -20,7 +20,8 @@ std::optional<long> range_part(const std::string& text, std::string_view part, c
   const auto value = parse_number<long>(part);
   if (!value || *value < minimum) {
     throw UsageError("frame range '" + text + "': " + what + " '" + std::string(part) +
-                     "' is no whole number from " + std::to_string(minimum) + " on; " + kRangeForm);
+                     "' is not a whole number from " + std::to_string(minimum) + " on; " +
+                     kRangeForm);
   }
   return value;
 }
@@ -121,8 +122,9 @@ std::vector<NumberedFile> list_numbered_files(const std::filesystem::path& folde
   for (const auto& path : list_files(folder, {extension})) {
     const auto number = parse_number<long>(path.stem().string());
     if (!number || *number < 0) {
-      throw DataError(path.string() + ": the name is no frame number; expected names like 000123" +
-                      extension + ". Move other files out of this folder.");
+      throw DataError(path.string() +
+                      ": the name is not a frame number; expected names like 000123" + extension +
+                      ". Move other files out of this folder.");
     }
     if (!files.empty() && files.back().number == *number) {
       throw DataError(path.string() + ": frame " + std::to_string(*number) + " is already " +

@@ -49,12 +49,12 @@ class PcdHeaderParser {
       if (words.empty() || words.front().starts_with('#')) continue;
       std::string name(words.front());
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        lines_.fail("'" + name.substr(0, 40) + "' is no entry of a PCD header." +
+        lines_.fail("'" + name.substr(0, 40) + "' is not an entry of a PCD header." +
                     suggestion(name, known));
       }
       if (name == "COLUMNS") name = "FIELDS";
       if (!entries_.emplace(name, std::vector(words.begin() + 1, words.end())).second) {
-        lines_.fail(name + " stands there twice.");
+        lines_.fail(name + " occurs twice.");
       }
     } while (!entries_.contains("DATA"));
   }

@@ -86,7 +86,7 @@ class PlyHeaderParser {
     if (words[0] == "format") return read_format(words);
     if (words[0] == "element") return read_element(words);
     if (words[0] == "property") return read_property(words);
-    lines_.fail("'" + std::string(words[0].substr(0, 40)) + "' is no entry of a PLY header.");
+    lines_.fail("'" + std::string(words[0].substr(0, 40)) + "' is not an entry of a PLY header.");
   }
 
   void read_format(const std::vector<std::string_view>& words) {

@@ -71,7 +71,7 @@ Pose rigid_pose(const Eigen::Matrix<double, 3, 4>& matrix, const std::string& wh
   const double determinant = rotation.determinant();
   if (!(deviation <= kTolerance) || determinant < 0.0) {
     throw DataError(where +
-                    ": the 3 x 3 part is no rotation: |R^T R - I| = " + number_text(deviation) +
+                    ": the 3 x 3 part is not a rotation: |R^T R - I| = " + number_text(deviation) +
                     " (at most 0.001), det R = " + number_text(determinant) +
                     " (expected +1). Expected a rigid pose r11 r12 r13 tx r21 ... tz.");
   }
@@ -122,10 +122,10 @@ Pose read_calibration(const std::filesystem::path& path, const std::string& key)
     pose = rigid_pose(kitti_matrix(numbers), where);
   });
   if (pose) return *pose;
-  throw DataError(path.string() + ": has no row '" + key + ":' (LiDAR to camera); found " +
-                  (found.empty() ? "no row" : join(found)) +
-                  ". If the poses are those of the LiDAR, say \"poses_are_lidar\": true in "
-                  "sequence.json.");
+  throw DataError(
+      path.string() + ": has no row '" + key + ":' (LiDAR to camera); found " +
+      (found.empty() ? "no row" : join(found)) +
+      ". If the poses are those of the LiDAR, set \"poses_are_lidar\": true in sequence.json.");
 }
 
 }  // namespace raymoval

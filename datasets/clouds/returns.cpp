@@ -31,8 +31,8 @@ void check_kinds(const ReturnCounts& counts, const std::string& where, const std
   if (infinite > kMostInfinite) {
     throw DataError(where + ": " + grouped_text(counts.infinite) + " of " +
                     grouped_text(counts.stored) +
-                    " points are infinite, more than 1 %; the file looks damaged. Where nothing "
-                    "came back write NaN." +
+                    " points are infinite, more than 1 %; the file looks damaged. Write missing "
+                    "returns as NaN." +
                     remedy);
   }
 }
@@ -135,7 +135,7 @@ void drop_bad_scans(std::vector<std::optional<Pose>>& poses,
                            " cannot be read (" + join(names) + ")";
   if (2 * bad >= poses.size()) {
     throw DataError(what + "; expected fewer than half. The first: " + first +
-                    " Look at the layout of the points, or copy the scans again.");
+                    " Check the layout of the points, or copy the scans again.");
   }
   losses.push_back(what + " and are left out, as asked by --skip-bad-scans. The first: " +
                    first.substr(first.rfind('/', first.find(": ")) + 1));

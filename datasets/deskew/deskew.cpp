@@ -61,8 +61,9 @@ double usual_unit(double span, const PointClock& clock, const std::string& place
     if (span * unit >= kShortest && span * unit <= kLongest) return unit;
   }
   throw DataError(place + ": the times of its points ('" + clock.field + "') span " +
-                  number_text(span) + ", which is no time of a scan in s, ms, us or ns (2 ms to " +
-                  "1.9 s). Say what one of it is: --point-time-unit SECONDS.");
+                  number_text(span) +
+                  ", which is not a time of a scan in s, ms, us or ns (2 ms to " +
+                  "1.9 s). Give its unit: --point-time-unit SECONDS.");
 }
 
 /// A float32 that counts from 1970 has steps of minutes.
@@ -110,7 +111,8 @@ std::string zero_text(PointClock::Zero zero) {
     case PointClock::Zero::kClock:
       return "on the clock of the scans";
     case PointClock::Zero::kFirstPoint:
-      return "on another clock than the scans, whose time is taken for that of the earliest point";
+      return "on another clock than the scans; the time of a scan is used as that of its earliest "
+             "point";
   }
   return "";
 }
@@ -169,8 +171,8 @@ std::vector<double> point_times(const TimedScan& timed, const PointClock& clock)
     if (std::abs(time) > 2.0 * kLongest) {
       throw DataError(timed.place + ": point " + grouped_text(timed.scan.stored_position(i)) +
                       " was taken " + number_text(time) +
-                      " s from the time of its scan. Repair its time, or say what one of '" +
-                      clock.field + "' is: --point-time-unit.");
+                      " s from the time of its scan. Repair its time, or give the unit of '" +
+                      clock.field + "': --point-time-unit.");
     }
     times.push_back(time);
   }
@@ -258,8 +260,8 @@ PointClock find_point_clock(const ScanSource& scans, const DeskewInput& input,
   }
   if (beyond && first < last) {
     clock.notes.push_back(
-        "--deskew: points that were taken before the first or after the last pose are moved as the "
-        "sensor moved next to it.");
+        "--deskew: points from before the first or after the last pose are corrected with the "
+        "motion next to it.");
   }
   return clock;
 }

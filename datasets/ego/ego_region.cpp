@@ -17,9 +17,9 @@ constexpr double kOpen = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void throw_ego_form(const std::string& text) {
   throw UsageError("'" + text +
-                   "' says no part of the scans that is the own vehicle; expected auto, none, a "
-                   "radius in metres (2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in the sensor "
-                   "frame (-1:2,-0.9:0.9,-1.5:0.2; x ahead, y left, z up for most sensors).");
+                   "' is not a region of the ego vehicle; expected auto, none, a radius in metres "
+                   "(2.4), or a box XMIN:XMAX,YMIN:YMAX,ZMIN:ZMAX in the sensor frame "
+                   "(-1:2,-0.9:0.9,-1.5:0.2; x ahead, y left, z up for most sensors).");
 }
 
 double box_side(std::string_view part, double open, const std::string& text) {
@@ -104,8 +104,8 @@ EgoRegion estimated_region(const ScanSource& source) {
   if (!estimate.can_tell()) {
     throw DataError(
         "--drop-ego auto: only " + counted_text(estimate.scans, "scan") +
-        " a metre or more apart, but it takes five to tell what goes along with the sensor. Choose "
-        "more --frames, or say where the vehicle is: --drop-ego RADIUS or a box.");
+        " a metre or more apart, but it takes five to find points that move with the sensor. "
+        "Choose more --frames, or give the region: --drop-ego RADIUS or a box.");
   }
   return estimate.region();
 }
@@ -139,7 +139,7 @@ Scan EgoFreeSource::load(std::size_t index) const {
   if (kept.empty() && scan.size() > 0) {
     throw DataError("scan " + scan.name + ": all of its " + counted_text(scan.size(), "point") +
                     " lie in the region that --drop-ego leaves out (" + ego_region_text(own) +
-                    "). Say a smaller one.");
+                    "). Choose a smaller region.");
   }
   keep_points(scan, std::move(kept));
   return scan;

@@ -23,13 +23,13 @@ std::string own_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& p
   const EgoRegion& region = source.region();
   const bool estimated = source.asked().kind == EgoRegion::Kind::kEstimated;
   if (region.kind == EgoRegion::Kind::kNone) {
-    return "--drop-ego auto: nothing goes along with the sensor, so no point is left out";
+    return "--drop-ego auto: no points move with the sensor, so none is left out";
   }
   const std::string where =
       (region.kind == EgoRegion::Kind::kRadius ? "nearer than " + number_text(region.radius) + " m"
                                                : "in the box " + ego_region_text(region) + " m") +
       (estimated ? ", as estimated" : "");
-  const std::string left = " of the own vehicle (" + where + ") and ";
+  const std::string left = " on the ego vehicle (" + where + ") and ";
   if (points.own_vehicle == 0) return "no point is" + left + "left out";
   return share_text(points.own_vehicle, points.looked_at) + " are" + left + "are left out";
 }
@@ -65,7 +65,7 @@ std::vector<std::string> left_out_lines(const Sequence& sequence) {
   std::vector<std::string> lines;
   if (points.no_returns > 0) {
     lines.push_back(share_text(points.no_returns, points.stored) +
-                    " are no returns (NaN or at the origin) and are left out");
+                    " are missing returns (NaN or at the origin) and are left out");
   }
   const EgoFreeSource* without_ego = ego_free_source(sequence);
   if (without_ego != nullptr && points.looked_at > 0) {

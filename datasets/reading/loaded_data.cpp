@@ -88,7 +88,7 @@ constexpr const char* kRemedy =
 
 std::string changed(const std::string& scan, const char* what) {
   return "the data changed while it was used: " + std::string(what) + " of scan " + scan +
-         " are not what they were before. " + kRemedy;
+         " differ from before. " + kRemedy;
 }
 
 bool differs(const std::string& expected, const std::string& found) {
@@ -172,8 +172,8 @@ std::string changed_data(const LoadedData& expected, const LoadedData& found) {
   }
   if (found.settings == expected.settings) return "";
   return std::string(
-             "the data changed while it was used: poses, sensor, ranges or label rule are "
-             "not what they were before. ") +
+             "the data changed while it was used: poses, sensor, ranges or label rule differ from "
+             "before. ") +
          kRemedy;
 }
 

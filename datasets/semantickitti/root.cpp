@@ -50,7 +50,7 @@ fs::path folder_in_root(const std::string& path) {
 Sequence open_root(Layout::Path path, const SequenceOptions& options, const OpenContext& context) {
   if (is_folder(path)) {
     throw UsageError(path + ": is a root with " + content_text(fs::path(path) / "sequences") +
-                     " in sequences/; say which one, such as " + path + ":05.");
+                     " in sequences/; name one, such as " + path + ":05.");
   }
   if (find_segment(path) != nullptr) {
     throw DataError(path + ": no such folder; the segment of that name is ROOT:" + path +

@@ -63,9 +63,9 @@ std::vector<Change> changes_of(const Fields& mover) {
 Motions read_motions(const std::filesystem::path& file) {
   if (!has_file(file)) {
     throw DataError(file.string() +
-                    ": is missing; it says who moves when, which --label-rule moving-now needs. "
-                    "Simulated scenes have it. Labels of other data say only what moves at any "
-                    "time: leave the rule out.");
+                    ": is missing; it lists which objects move at which time, which --label-rule "
+                    "moving-now needs. Simulated scenes have it. Labels of other data have no such "
+                    "times: leave the rule out.");
   }
   const nlohmann::json whole = {{"movers", read_json(file)}};
   const Fields list(whole, file.string(), "movers");
@@ -147,9 +147,9 @@ std::optional<Pose> camera_calibration(const std::filesystem::path& folder,
   const auto calibration = folder / "calib.txt";
   if (!has_file(calibration)) {
     throw DataError(calibration.string() +
-                    ": is missing; its row 'Tr:' takes camera poses to the LiDAR (T = Tr^-1 P Tr). "
-                    "Add it, or say \"poses_are_lidar\": true in sequence.json if the poses are "
-                    "those of the LiDAR.");
+                    ": is missing; its row 'Tr:' transforms camera poses to the LiDAR (T = Tr^-1 P "
+                    "Tr). Add it, or set \"poses_are_lidar\": true in sequence.json if the poses "
+                    "are those of the LiDAR.");
   }
   return read_calibration(calibration, "Tr");
 }

@@ -65,7 +65,7 @@ BodySensor read_body_sensor(const std::string& text, const std::filesystem::path
   const std::filesystem::path path =
       has_file(folder / text) ? folder / text : std::filesystem::path(text);
   if (!has_file(path)) {
-    throw UsageError("--T-sensor " + text + ": is no file and not seven numbers; " +
+    throw UsageError("--T-sensor " + text + ": is not a file and not seven numbers; " +
                      std::string(kForm) + ".");
   }
   const auto stored = numbers_in(without_comments(read_text(path)));

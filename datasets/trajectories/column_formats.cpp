@@ -97,8 +97,8 @@ bool is_euroc_of_eight(const PoseText& text) {
   if (nanoseconds && order == QuaternionOrder::kScalarFirst) return true;
   throw DataError(text.path().string() +
                   ": eight numbers a row between commas, without a line of names: the order of the "
-                  "quaternion cannot be told. Say --pose-format tum if w is the last number "
-                  "(t x y z qx qy qz qw), or --pose-format euroc if it is the first of the four.");
+                  "quaternion is unknown. Use --pose-format tum if w is the last number (t x y z "
+                  "qx qy qz qw), or --pose-format euroc if it is the first of the four.");
 }
 
 Match match_matrix(const PoseText& text) {
@@ -147,9 +147,9 @@ PoseFile read_numbered(const PoseText& text, PoseColumns columns) {
   columns.time.reset();
   PoseFile file = read_columns(text, columns);
   for (std::size_t i = 0; i < frames.size(); ++i) file.rows[i].frame = frames[i];
-  file.notes.push_back(file.path.string() +
-                       ": the first column is taken for the number of the frame, by its whole "
-                       "numbers.");
+  file.notes.push_back(
+      file.path.string() +
+      ": the first column is read as frame numbers, because they are whole numbers.");
   return file;
 }
 
@@ -186,7 +186,7 @@ std::vector<Block> blocks_of(const PoseText& text) {
     if (part.size() != words) {
       throw DataError(text.place(row.line) + ": " + std::to_string(part.size()) +
                       " numbers; expected " + std::to_string(words) +
-                      " as in the rows above; the row looks cut or doubled.");
+                      " as in the rows above; the row looks truncated or doubled.");
     }
     if (blocks.empty() || blocks.back().numbers.size() == 16) blocks.push_back({{}, row.line});
     blocks.back().last_line = row.line;
@@ -224,7 +224,7 @@ PoseFile read_blocks(const PoseText& text) {
   if (!timed) return file;
   set_stamps(file, times, {}, std::nullopt);
   file.notes.push_back(file.path.string() +
-                       ": the last number of each matrix is taken for the time of the pose.");
+                       ": the last number of each matrix is read as the time of the pose.");
   return file;
 }
 
@@ -264,7 +264,7 @@ PoseFile read_ct_icp(const PoseText& text, const PoseFormatName& name) {
     if (row.words.size() != count) {
       throw DataError(where + ": " + std::to_string(row.words.size()) + " numbers; expected " +
                       std::to_string(count) +
-                      " as in the rows above; the row looks cut or doubled.");
+                      " as in the rows above; the row looks truncated or doubled.");
     }
     const std::size_t skipped = count == 22 ? 1 : 0;
     std::vector<double> numbers(10, 0.0);

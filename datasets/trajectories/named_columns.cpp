@@ -161,15 +161,14 @@ void check_angles(const PoseText& text, PoseColumns& columns, std::vector<std::s
   if (most <= kMostRadians) return;
   columns.rotation = Rotation::kEulerDegrees;
   notes.push_back(text.path().string() +
-                  ": roll, pitch and yaw are taken for degrees, by their "
-                  "size.");
+                  ": roll, pitch and yaw are read as degrees, because of their size.");
 }
 
 PoseFile read_named_columns(const PoseText& text) {
   auto columns = columns_of(text);
   if (!columns) {
     std::vector<std::string> names(text.names().begin(), text.names().end());
-    throw DataError(text.path().string() + ": the line of names says " +
+    throw DataError(text.path().string() + ": the line of names has " +
                     (names.empty() ? "nothing" : join(names)) +
                     "; expected x y z with qx qy qz qw or roll pitch yaw, and a time.");
   }

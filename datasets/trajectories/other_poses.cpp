@@ -125,9 +125,9 @@ PoseFile read_array(const std::filesystem::path& path) {
   const auto size = static_cast<std::size_t>(number.field.size);
   const std::size_t count = head.body.size() / (numbers * size);
   if (head.shape.front() != count || head.body.size() % (numbers * size) != 0) {
-    throw DataError(path.string() + ": says that it holds " + grouped_text(head.shape.front()) +
-                    " poses, but has the bytes of " + grouped_text(count) +
-                    "; the file looks cut.");
+    throw DataError(path.string() + ": should hold " + grouped_text(head.shape.front()) +
+                    " poses, but has bytes for " + grouped_text(count) +
+                    "; the file looks truncated.");
   }
   PoseColumns columns;
   columns.rotation = numbers == 16 ? Rotation::kMatrix4x4 : Rotation::kMatrix3x4;
@@ -211,8 +211,8 @@ std::optional<PoseFile> read_binary_poses(const std::filesystem::path& path,
   }
   if (given.empty() && head.find('\0') != std::string::npos) {
     throw DataError(path.string() +
-                    ": is no text and no .npy file; expected a pose file. "
-                    "`raymoval list pose-formats` names all forms.");
+                    ": is neither text nor a .npy file; expected a pose file. `raymoval list "
+                    "pose-formats` names all forms.");
   }
   return std::nullopt;
 }

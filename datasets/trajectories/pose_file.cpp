@@ -74,7 +74,7 @@ void sort_rows(PoseFile& file) {
   if (late == 0) return;
   std::stable_sort(file.rows.begin(), file.rows.end(), earlier);
   file.notes.push_back(file.path.string() + ": " + counted_text(late, "row") +
-                       " stood behind a later one; the rows were sorted by time.");
+                       " followed a later one; the rows were sorted by time.");
 }
 
 /// Poses of one time that are far apart belong to no trajectory.

@@ -210,8 +210,8 @@ void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
   constexpr Nanoseconds kCertain = 100'000'000'000'000'000;  // Only times since 1970 are as large.
   const bool guessed = !unit && column.unit != TimeUnit::kSeconds;
   if (guessed && std::abs(column.stamps.front()) < kCertain) {
-    file.notes.push_back(file.path.string() + ": the times are taken for " +
-                         time_unit_name(column.unit) + ", by their size.");
+    file.notes.push_back(file.path.string() + ": the times are read as " +
+                         time_unit_name(column.unit) + ", because of their size.");
   }
   if (extra.empty()) return;
   const StampColumn parts = parse_stamps(extra, TimeUnit::kNanoseconds, place);
@@ -253,7 +253,7 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
       if (columns.others_are_numbers) (void)text.numbers(row);
       throw DataError(where + ": " + std::to_string(row.words.size()) + " numbers; expected " +
                       std::to_string(columns.count) +
-                      " as in the rows above; the row looks cut or doubled.");
+                      " as in the rows above; the row looks truncated or doubled.");
     }
     const std::vector<double> numbers = used_numbers(text, row, columns);
     file.rows.push_back({.matrix = pose_matrix(numbers, columns, where), .line = row.line});

@@ -187,8 +187,9 @@ ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSett
   if (file.rows.size() == 1 && scans.row_count > 1) {
     refuse_offset(settings, "there is one pose for all scans");
     result = one_for_all(sensor_pose(rigid_pose(file, 0), settings), scans);
-    result.notes.push_back(file.path.string() +
-                           ": holds one pose, which counts for all scans: the sensor stands.");
+    result.notes.push_back(
+        file.path.string() +
+        ": holds one pose, which is used for all scans: the sensor is stationary.");
   } else if (file.rows.front().frame) {
     result = by_frame(file, scans, settings);
   } else if (file.stamped() && !scans.stamps.empty()) {
@@ -204,15 +205,15 @@ ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSett
 }
 
 ScanPoses standing_poses(const ScanKeys& scans, const PoseSettings& settings) {
-  refuse_offset(settings, "the sensor stands");
+  refuse_offset(settings, "the sensor is stationary");
   ScanPoses result = one_for_all(settings.T_body_sensor.value_or(Pose::Identity()), scans);
   result.times_s = scans.times_s;
   return result;
 }
 
 std::string ways_to_poses() {
-  return "Odometry programs such as KISS-ICP, GLIM or FAST-LIO find poses, and raymoval reads what "
-         "they write (see docs/poses.md): --poses FILE. If the sensor stood still, say --poses "
+  return "Odometry programs such as KISS-ICP, GLIM or FAST-LIO estimate poses, and raymoval reads "
+         "their files (see docs/poses.md): --poses FILE. If the sensor was stationary, use --poses "
          "identity.";
 }
 

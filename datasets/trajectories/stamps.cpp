@@ -329,8 +329,8 @@ StampColumn parse_dates(const std::vector<std::string_view>& words,
     const auto date = parse_date(words[i]);
     if (!date) {
       throw DataError(place(i) + ": '" + std::string(words[i].substr(0, 40)) +
-                      "' is no date as in the lines above; expected one such as "
-                      "2011-09-26 13:02:25.964389445.");
+                      "' is not a date as in the lines above; expected one such as 2011-09-26 "
+                      "13:02:25.964389445.");
     }
     column.stamps.push_back(*date);
   }

@@ -98,8 +98,8 @@ std::string range_text(Nanoseconds first, Nanoseconds last) {
 std::string remedy(const std::vector<Nanoseconds>& stamps, const SensorMotion& motion,
                    const Missing& missing) {
   if (missing.in_gap > missing.before + missing.after) {
-    return "Say how far apart poses may be that are interpolated (--max-gap SECONDS), or take a "
-           "trajectory with a pose for each scan.";
+    return "Allow interpolation between poses that are further apart (--max-gap SECONDS), or take "
+           "a trajectory with a pose for each scan.";
   }
   const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
   const auto [begin, end] = motion.span();

@@ -54,8 +54,9 @@ const char* up_source_name(UpDirection::Source source) {
 std::string up_line(const UpDirection& up) {
   if (up.is_world_z()) return "";
   return "up is " + up_text(up.direction) + " of the world (" +
-         (up.source == UpDirection::Source::kGiven ? "as given"
-                                                   : "estimated from the scans; --up z overrules") +
+         (up.source == UpDirection::Source::kGiven
+              ? "as given"
+              : "estimated from the scans; --up z overrides it") +
          ")";
 }
 

@@ -36,8 +36,7 @@ ParameterTable<StrictOptions> make_strict_table() {
   ParameterTable<StrictOptions> table;
   table
       .number("voxel_size", &StrictOptions::voxel_size,
-              {"m", 0.01, 100.0, "",
-               "Edge of a cell; 0.1 m is the voxel of which the benchmark's distance is half."})
+              {"m", 0.01, 100.0, "", "Edge of a cell; 0.1 m is twice the benchmark's distance."})
       .number("maximum_range", &StrictOptions::maximum_range, kMaximumRange)
       .number("ego_range", &StrictOptions::ego_range, kEgoRange);
   return table;

@@ -142,7 +142,7 @@ class ErasorScorer : public Scorer {
     }
     if (options_.frame != FrameOption::kSequence) {
       throw UsageError(
-          "a cloud stands in the frame of the sequence's poses: expected frame = sequence.");
+          "a cloud is in the frame of the sequence's poses: expected frame = sequence.");
     }
     ProtocolResult result =
         result_of(ListedVoxels(cloud_map(cloud.points()), classes_), truth_.points(), 0);

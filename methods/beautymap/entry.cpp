@@ -16,29 +16,30 @@ Table make_table() {
               {"m", 0.1, 5, "'h_res'", "Height of a slice; a column has 31 of them."})
       .number("window_side", &P::window_side,
               {"m", 4, 400, "'dis_range'",
-               "Side of the square around the sensor in which a scan judges the map."})
+               "Side of the square around the sensor in which a scan is compared with the map."})
       .number("sight_range", &P::sight_range,
               {"m", 0, 400, "constant of the public program",
-               "From here on columns in which the scan has no ground are not judged."})
+               "Beyond this range, columns in which the scan has no ground are not compared."})
       .flag("public_lattice", &P::public_lattice,
             {.source = "the public program",
-             .sentence = "Columns begin at the map's least x and y, and the window around the "
-                         "sensor begins at its position in whole metres and ends one column "
-                         "earlier than it begins. Else columns are those of the world's lattice, "
-                         "and the sensor's is in the middle."})
+             .sentence =
+                 "Columns begin at the map's smallest x and y; the window around the sensor begins "
+                 "at its position in whole metres and is one column short at its end. Else columns "
+                 "are on the world's lattice, and the sensor's column is in the centre."})
       .flag("public_outliers", &P::public_outliers,
             {.source = "the public program",
-             .sentence = "The neighbours are those with smaller x and y, after they were moved "
+             .sentence = "Neighbours are those with smaller x and y, after they were changed "
                          "themselves. Else they are all around, as measured."})
       .flag("public_rays", &P::public_rays,
             {.source = "the public program",
              .sentence = "Heights along rays walked backward add a difference in metres to slices, "
                          "and count slices of columns as if all columns began at one height. Else "
                          "they are heights."})
-      .flag("public_top", &P::public_top,
-            {.source = "the public program",
-             .sentence = "Of the slices above the 30th only the last counts, and a scan has "
-                         "something there if the column has something below too. Else all do."});
+      .flag(
+          "public_top", &P::public_top,
+          {.source = "the public program",
+           .sentence = "Of the slices above the 30th only the last counts, and a scan counts there "
+                       "only if its column is also occupied below. Else all slices count."});
 }
 
 }  // namespace
@@ -56,8 +57,8 @@ MethodEntry beautymap_entry() {
   MethodEntry entry;
   entry.name = "beautymap";
   entry.sentence =
-      "Columns of bits: what the map has in a column and a scan has not, although it looks there, "
-      "goes, down to the ground.";
+      "Encodes the heights of each column as bits: removes points above the ground that the map "
+      "has and a scan that observes the column does not.";
   entry.source = "BeautyMap: Binary-Encoded Adaptable Ground Matrix (RA-L 2024)";
   entry.bibtex = R"(@article{jia2024beautymap,
   author = {Jia, Mingkai and Zhang, Qingwen and Yang, Bowen and Wu, Jin and Liu, Ming and
@@ -75,10 +76,9 @@ MethodEntry beautymap_entry() {
   entry.notes = {
       // The page of the method has all notes.
       "The default is the public program with its quirks, each of which has a switch (public_...).",
-      "A scan with nothing in the square around its sensor says nothing; the public program skips "
-      "it as well.",
-      "A point that stands straight above or below the sensor has no slope; the public program "
-      "divides by zero.",
+      "A scan without points in the square around its sensor is skipped, as in the public program.",
+      "A point straight above or below the sensor has no slope; the public program divides by "
+      "zero.",
   };
   entry.variants = {
       {.name = "published", .sentence = "As the public program is set for KITTI."},
@@ -89,7 +89,7 @@ MethodEntry beautymap_entry() {
        .sentence = "Without the quirks of the public program.",
        .overrides = sound},
       {.name = "wide",
-       .sentence = "Without the quirks, and judging up to 50 m instead of 20.",
+       .sentence = "Without the quirks, and comparing up to 50 m instead of 20.",
        .overrides = wide},
   };
   entry.bind(beautymap_method::make_table(), beautymap_method::make_beautymap);

@@ -51,9 +51,7 @@ MethodEntry oracle_entry() {
       control("oracle", "Removes exactly the points labelled moving; must score RR 100.");
   entry.needs_truth = true;
   entry.make = [](const Configuration&) -> std::unique_ptr<Remover> {
-    throw UsageError(
-        "'oracle' answers from the labels and can only be run where they are: use "
-        "raymoval run on a sequence with labels.");
+    throw UsageError("'oracle' needs labels: use raymoval run on a sequence with labels.");
   };
   return entry;
 }

@@ -14,21 +14,21 @@ Table make_table() {
               {"m", 0.02, 2, "v; 'resolution' of the public configuration", "Edge of a voxel."})
       .number("hit_extension", &P::hit_extension,
               {"m", 0, 5, "d_s; 'inflate_hits_dist'",
-               "Every hit reaches back so far along its beam: the sensor's range noise."})
+               "Every hit is extended this far back along its beam: the sensor's range noise."})
       .integer("unknown_inflation", &P::unknown_inflation,
                {"voxels", 0, 8, "d_p; 'inflate_unknown'",
-                "A void needs all voxels within this distance (Chebyshev) seen free by the same "
-                "scan: the pose error."})
+                "A void voxel needs all voxels within this distance (Chebyshev) observed as free "
+                "by the same scan: the pose error."})
       .flag("compensate_inflation", &P::compensate_inflation,
             {.source = "'inflate_unknown_compensation'",
-             .sentence = "Beams run on behind their end until they have advanced d_p voxels along "
-                         "one axis, so that the inflation does not eat the free side of surfaces.",
+             .sentence = "Beams are extended behind their end by d_p voxels along one axis, so "
+                         "that the inflation does not remove free space in front of surfaces.",
              .acts_when = "unknown_inflation > 0"})
       .number("minimum_range", &P::minimum_range,
-              {"m", 0, 20, "'min_range'", "Points nearer to the sensor cast no beam."})
-      .number(
-          "maximum_range", &P::maximum_range,
-          {"m", 0, 1000, "'max_range' (-1 there)", "Beams free no voxel beyond; 0 is no limit."})
+              {"m", 0, 20, "'min_range'", "Nearer points cast no beam."})
+      .number("maximum_range", &P::maximum_range,
+              {"m", 0, 1000, "'max_range' (-1 there)",
+               "Beams free no voxel beyond this range; 0 is no limit."})
       .flag("offline", &P::offline,
             {.source = "the paper's online variant",
              .sentence = "Answer for all points after the last scan instead of for each scan once "
@@ -42,8 +42,8 @@ MethodEntry dufomap_entry() {
   MethodEntry entry;
   entry.name = "dufomap";
   entry.sentence =
-      "Void voxels: what one scan once saw certainly free, with all its neighbours, holds only "
-      "moving objects, before and after.";
+      "A voxel is void if one scan observes it and all its neighbours as free; removes all points "
+      "in void voxels, of earlier and later scans.";
   entry.source = "DUFOMap: Efficient Dynamic Awareness Mapping (RA-L 2024)";
   entry.bibtex = R"(@article{duberg2024dufomap,
   author = {Duberg, Daniel and Zhang, Qingwen and Jia, Mingkai and Jensfelt, Patric},
@@ -62,8 +62,8 @@ MethodEntry dufomap_entry() {
       "public Python example passes d_p 2, here the variants called dp2.",
       "One beam per occupied voxel, to the voxel's centre ('center' sampling); the other "
       "samplings of the public code are left out.",
-      "Points nearer than minimum_range cast no beam at all; the public code leaves out their "
-      "hits only, measured to the voxel's centre. They are answered for like all others.",
+      "Points nearer than minimum_range cast no beam at all; the public code leaves out their hits "
+      "only, measured to the voxel's centre. They get a verdict like all others.",
       "The public code's optional clustering of voids, and its beams through hits, both off "
       "there, are left out.",
   };

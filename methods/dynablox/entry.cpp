@@ -15,42 +15,44 @@ Table make_table() {
   return Table()
       .number("voxel_size", &P::voxel_size, {"m", 0.1, 2, kShipped, "Edge of a voxel."})
       .number("min_range", &P::min_range,
-              {"m", 0, 50, kShipped, "Nearer returns and voxels tell nothing of free space."})
+              {"m", 0, 50, kShipped, "Nearer returns and voxels give no evidence of free space."})
       .number("max_range", &P::max_range,
               {"m", 1, 150, kShipped,
-               "Voxels beyond are not updated, nor beyond the sensor's own range. It must be more "
-               "than min_range."})
+               "Farther voxels are not updated, nor those beyond the sensor's own range. It must "
+               "be more than min_range."})
       .number("truncation", &P::truncation,
               {"m", 0.05, 10, kShipped,
-               "Distances to surfaces are cut off here; voxels that lie further behind one are "
-               "not updated. It must be more than occupied_below."})
+               "Distances to surfaces are truncated here; voxels further behind a surface are not "
+               "updated. It must be more than occupied_below."})
       .integer("max_weight", &P::max_weight,
                {"", 1, 65535, kShipped,
-                "A voxel's distance is the mean over its scans, of which the earlier ones weigh no "
-                "more than this together."})
+                "A voxel's distance is the weighted mean over its scans; the earlier scans "
+                "together weigh at most this."})
       .number("occupied_below", &P::occupied_below,
               {"m", 0.01, 10, "'tsdf_occupancy_threshold'",
-               "A voxel that is nearer to a surface is occupied, as is one with points. It must be "
-               "less than truncation."})
+               "A voxel nearer to a surface than this is occupied, as is a voxel with points. It "
+               "must be less than truncation."})
       .integer("temporal_buffer", &P::temporal_buffer,
                {"scans", 0, 1000, kShipped,
-                "A voxel that was free for no longer counts as occupied all the while."})
-      .integer("burn_in", &P::burn_in,
-               {"scans", 1, 1000, "'burn_in_period'",
-                "A voxel that was free for so long, and its neighbours with it, is ever free."})
+                "A voxel that was free for at most this many scans still counts as occupied."})
+      .integer(
+          "burn_in", &P::burn_in,
+          {"scans", 1, 1000, "'burn_in_period'",
+           "A voxel becomes ever-free if it and its neighbours were free for this many scans."})
       .integer("frames_to_reset", &P::frames_to_reset,
                {"scans", 1, 65535, "'counter_to_reset'",
-                "A voxel that was occupied for so long is no longer ever free, nor are its "
+                "A voxel that was occupied for this many scans is no longer ever-free, nor are its "
                 "neighbours."})
-      .number("separation", &P::separation,
-              {"m", 0, 1, "'min_cluster_separation'",
-               "Clusters are one if centres of their voxels are no further apart.", kOnline})
+      .number(
+          "separation", &P::separation,
+          {"m", 0, 1, "'min_cluster_separation'",
+           "Clusters are merged if centres of their voxels are at most this far apart.", kOnline})
       .integer("min_points", &P::min_points,
-               {"points", 1, 1000000, kShipped, "A smaller cluster is none.", kOnline})
+               {"points", 1, 1000000, kShipped, "Smaller clusters are discarded.", kOnline})
       .flag("offline", &P::offline,
             {.source = "not in the paper",
-             .sentence = "Every point goes that lies in a voxel which is ever free in the end. "
-                         "Else the points of a scan's clusters, judged when it comes."});
+             .sentence = "Remove every point in a voxel that is ever-free after the last scan. "
+                         "Else remove the points of each scan's clusters when it arrives."});
 }
 
 }  // namespace
@@ -61,7 +63,8 @@ MethodEntry dynablox_entry() {
   entry.name = "dynablox";
   entry.version = "2";
   entry.sentence =
-      "A distance field finds voxels that were once free for sure; what appears there moves.";
+      "Finds voxels that were certainly free at some time by a distance field; points that appear "
+      "in them are moving.";
   entry.source = "Dynablox: Real-time Detection of Diverse Dynamic Objects (RA-L 2023)";
   entry.bibtex = R"(@article{schmid2023dynablox,
   author = {Schmid, Lukas and Andersson, Olov and Sulser, Aurelio and Pfreundschuh, Patrick and
@@ -97,7 +100,7 @@ MethodEntry dynablox_entry() {
        .online = true,
        .overrides = {{"max_range", 80.0}}},
       {.name = "offline",
-       .sentence = "A point goes if its voxel is ever free in the end.",
+       .sentence = "Removes points whose voxel is ever-free after the last scan.",
        .overrides = {{"offline", true}}},
       {.name = "offline-wide",
        .sentence = "Both.",

@@ -13,21 +13,22 @@ void add_map(Table& table) {
   table
       .choice("body", &P::body, {{"sensor", Body::kSensor}, {"ground", Body::kGround}},
               {.source = "sensor in the public code",
-               .sentence = "The frame that bins lie in: that of the sensor, lifted by "
-                           "sensor_height, or the ground that the map has around the sensor."})
+               .sentence = "Frame of the bins: the sensor frame, lifted by sensor_height, or the "
+                           "ground of the map around the sensor."})
       .number("sensor_height", &P::sensor_height,
               {"m", -10, 10, "lidar2body, 1.73 in all sets",
                "Height of the sensor above the road; heights below are above that road. With body "
-               "= ground only where the map has none below the sensor."})
-      .number("min_range", &P::minimum_range,
-              {"m", 0, 20, "naive map, 2.7 in the public code",
-               "Nearer points (horizontal distance) are the own car: in neither map nor query."})
+               "= ground, used only where the map has no ground below the sensor."})
+      .number(
+          "min_range", &P::minimum_range,
+          {"m", 0, 20, "naive map, 2.7 in the public code",
+           "Nearer points (horizontal distance) are on the ego vehicle: in neither map nor query."})
       .number("map_voxel_size", &P::map_voxel_size,
               {"m", 0.02, 2, "0.2 in all sets; KTH port 0.1",
                "Edge of a voxel of the naive map, the unit that is removed."})
       .number("query_voxel_size", &P::query_voxel_size,
               {"m", 0.02, 2, "code 0.05; 0.2 in all sets; KTH port 0.1",
-               "A query is thinned to one point a voxel of this edge."})
+               "A query is thinned to one point per voxel of this edge."})
       .integer("removal_interval", &P::removal_interval,
                {"scans", 1, 100000, "code 2; sets 4 1 5 8 5", "Every n-th scan is a query."})
       .integer("phase", &P::phase,
@@ -60,11 +61,11 @@ void add_ratio_test(Table& table) {
                "A bin is unequal if the lower extent over the higher one is below this."})
       .integer("minimum_num_pts", &P::minimum_points,
                {"points", 1, 100000, "code 4; sets 6 6 6 10 6",
-                "A bin with fewer points of the thinned query is left alone."})
+                "A bin with fewer points of the thinned query is not changed."})
       .flag("points_by_beams", &P::points_by_beams,
             {.source = "ours",
-             .sentence = "minimum_num_pts is for beams as near each other as those of the HDL-64E; "
-                         "it is less where they are farther apart."})
+             .sentence = "minimum_num_pts is for the beam spacing of the HDL-64E and is reduced "
+                         "for wider spacing."})
       .number("th_bin_max_h", &P::minimum_top,
               {"m", -50, 50, "code 0.39; sets 0.2 0.2 0.2 0.05 0.2",
                "Version 2: nothing is removed from a bin whose highest map point is not above this "
@@ -83,7 +84,7 @@ void add_ground(Table& table) {
               {"m", 0.001, 10, "0.5 in all sets",
                "Points less than this above the representative seed the ground plane."})
       .integer("gf_iter", &P::plane_iterations,
-               {"", 1, 100, "3 in all sets", "Times that the plane is fitted."})
+               {"", 1, 100, "3 in all sets", "Number of plane fits."})
       .number("gf_dist_thr", &P::ground_distance,
               {"m", 0.001, 10, "code 0.05; sets 0.15 0.15 0.15 0.15 0.125",
                "Points less than this above the plane are ground."});
@@ -133,8 +134,8 @@ std::vector<MethodVariant> variants() {
        .sentence = "The general set with the order of operations that the paper describes.",
        .overrides = {{"version", std::int64_t{2}}}},
       {.name = "auto",
-       .sentence = "The general set with what it needs from the data: the ground around the "
-                   "sensor, and how few points its beams leave in a bin.",
+       .sentence = "The general set, with the ground around the sensor and the number of points in "
+                   "a bin adapted to the data.",
        .overrides = {{"body", std::string("ground")}, {"points_by_beams", true}}},
   };
 }
@@ -147,8 +148,8 @@ MethodEntry erasor_entry() {
   entry.name = "erasor";
   entry.version = "2";
   entry.sentence =
-      "Vertical extents of polar bins: where the map reaches much higher than the scan, what "
-      "stands above the fitted ground goes.";
+      "Compares the vertical extents of map and scan in polar bins: where that of the map is much "
+      "larger, points above the fitted ground are removed.";
   entry.source =
       "ERASOR: Egocentric Ratio of Pseudo Occupancy-based Dynamic Object Removal for Static 3D "
       "Point Cloud Map Building, RA-L 2021";
@@ -157,13 +158,12 @@ MethodEntry erasor_entry() {
       // The page of the method has all notes.
       "The map is a set of voxels on a lattice that no query moves, each with one fixed centroid "
       "and either in or out; the public map is a cloud that every query thins again and in which "
-      "recovered ground stands twice.",
-      "A point answers through the voxel it lies in; points nearer than min_range too if another "
-      "scan filled that voxel, else they stay.",
-      "A query puts back the voxels of the raw points that its thinned points in the bin stand "
-      "for.",
-      "The plane's normal is turned upward; in the public code its sign is left to chance, which "
-      "for steep planes decides between all and nothing.",
+      "recovered ground occurs twice.",
+      "A point has the verdict of its voxel, also a point nearer than min_range if another scan "
+      "filled that voxel; else that point is kept.",
+      "A query restores the voxels of the raw points that its thinned points in the bin represent.",
+      "The plane's normal is turned upward; in the public code its sign is arbitrary, so that "
+      "steep planes remove all points or none.",
       "Where the seeds lie on one line or point, the most upright plane through them is taken; "
       "the public code's is arbitrary.",
       "A bin without seeds loses nothing; the public code uses an uninitialised covariance there.",

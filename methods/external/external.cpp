@@ -51,7 +51,7 @@ std::string found_program(const std::string& name) {
     }
   }
   throw MethodError(fmt::format(
-      "the program '{}' is not on PATH; install it, or name it by its path in the manifest", name));
+      "the program '{}' is not on PATH; install it, or give its path in the manifest", name));
 }
 
 /// The last output of the program, as the end of a message.
@@ -161,8 +161,9 @@ MethodEntry external_entry(const std::filesystem::path& manifest) {
   entry.parameters = read.parameters;
   entry.variants = {
       {.name = "default",
-       .sentence = read.online ? "Answers for a scan from it and earlier ones, its manifest says."
-                               : "Answers from all scans.",
+       .sentence = read.online
+                       ? "Answers for a scan from it and earlier ones, according to its manifest."
+                       : "Answers from all scans.",
        .online = read.online}};
   entry.manifest = read.path.string();
   entry.make = [read = std::move(read)](const Configuration& parameters) {

@@ -160,7 +160,7 @@ std::vector<std::string> files_below(const std::string& name, const Manifest& ma
   if (is_file(here / name)) return {name};
   if (!is_folder(here / name)) {
     throw DataError((here / name).string() + ": there is no such file, but " +
-                    manifest.path.string() + " says that it belongs to the program.");
+                    manifest.path.string() + " lists it as a file of the program.");
   }
   std::vector<std::string> found;
   add_files_below(here / name, here, found);

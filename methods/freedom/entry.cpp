@@ -13,7 +13,7 @@ Table make_table() {
   return Table()
       .number("sub_voxel_size", &P::sub_voxel_size,
               {"m", 0.02, 2, kKitti,
-               "Edge of a sub-voxel, which keeps one point. Voxels, which are free or not, have "
+               "Edge of a sub-voxel, which holds one point. A voxel, which is free or not, has "
                "four along each edge."})
       .number("minimum_range", &P::minimum_range,
               {"m", 0, 100, kKitti, "Nearer points are not put into the map."})
@@ -31,19 +31,19 @@ Table make_table() {
               {"m", 0, 1000, kKitti, "Rays end at this height above the sensor."})
       .integer("counts_to_free", &P::counts_to_free,
                {"scans", 1, 255, "KITTI settings; 3 for KITTI 01, Livox and rooms",
-                "A voxel is free once it and its 26 neighbours were each passed by rays of so many "
-                "scans without a hit in between."})
+                "A voxel becomes free when rays of this many scans passed it and each of its 26 "
+                "neighbours without a hit in between."})
       .integer("counts_to_revert", &P::counts_to_revert,
                {"scans", 1, 255, kKitti,
-                "A voxel that is hit by so many scans without being passed in between is not free "
-                "any more, nor are its 26 neighbours."})
+                "A voxel that is hit by this many scans without a passing ray in between is no "
+                "longer free, nor are its 26 neighbours."})
       .flag("enhancement", &P::enhancement,
             {.source = "the publication",
-             .sentence = "Rays also go where the scan has no return, if this is open to the top of "
-                         "its image, as far as its surroundings are away."})
+             .sentence = "Rays are also cast where the scan has no return, if that area is open to "
+                         "the top of its image, up to the range of its surroundings."})
       .number("image_maximum", &P::image_maximum,
               {"m", 1, 1000, "KITTI settings; 30 for Livox",
-               "Farther points are not in the image, whose depths are 255th parts of this.",
+               "Farther points are not in the image, whose depth resolution is 1/255 of this.",
                "enhancement is true"});
 }
 
@@ -55,8 +55,8 @@ MethodEntry freedom_entry() {
   entry.name = "freedom";
   entry.version = "2";
   entry.sentence =
-      "Free voxels: what stands where scan after scan looked through, with all its surroundings, "
-      "goes, and its neighbours go unless another scan saw them.";
+      "A voxel is free if several scans in a row see through it and its neighbours; removes points "
+      "in free voxels, and points near them unless another scan supports these.";
   entry.source = "FreeDOM: Online Dynamic Object Removal Framework (RA-L 2025)";
   entry.bibtex = R"(@article{li2025freedom,
   author = {Li, Chen and Li, Wanlei and Liu, Wenhao and Shu, Yixiang and Lou, Yunjiang},
@@ -75,16 +75,15 @@ MethodEntry freedom_entry() {
       "As in the public program, levels of the map grow by one round less than those of a scan, a "
       "voxel's neighbours keep their counts when it is no longer free, and scans that pass do not "
       "count in blocks of 8 x 8 x 8 voxels that are all free.",
-      "The public program gives a map with one point in a sub-voxel; here a point goes if its "
-      "sub-voxel had a point of any scan and has no static one after the last scan.",
-      "A point that is out of range in its own scan is answered by its sub-voxel, too, and stays "
-      "if there never was a point in it.",
+      "The public program gives a map with one point in a sub-voxel; here a point is removed if "
+      "its sub-voxel had a point of any scan and has no static one after the last scan.",
+      "A point that is out of range in its own scan also has the verdict of its sub-voxel, and is "
+      "kept if there never was a point in it.",
       "The image is that of the sensor's model (public settings: a file for each sensor).",
       "Columns of the image are as wide as its rows are high. If the sensor's directions are as "
       "far apart as its beams or farther, each has a column of its own.",
-      "The top of the image is that of the sensor. Of one mounted upside down it shows the "
-      "ground, so that rays would go where the ground gives no return: set enhancement=false "
-      "there.",
+      "The top of the image is that of the sensor. Of one mounted upside down it shows the ground, "
+      "so that rays would be cast where the ground gives no return: set enhancement=false there.",
       "The inpainting is written from its publication; OpenCV's rule for gradients is kept, its "
       "mixing in of unfilled pixels beside the first row and column is not.",
       "What the settings for KITTI do not use is left out: other neighbourhoods than 26, the mask "

@@ -18,7 +18,7 @@ BeliefModel::BeliefModel(const Parameters& parameters)
     likelihood_.push_back(likelihood);
     if (far() > kMostDistances) {
       throw ConfigurationError(
-          "hmm_mos.spread and hmm_mos.transition: distances would count too far away; expected a "
+          "hmm_mos.spread and hmm_mos.transition: distances too far away would count; expected a "
           "smaller spread, or a larger transition.");
     }
   }

@@ -15,7 +15,7 @@ void add_map(Table& table) {
                "Edge of a voxel."})
       .number("min_range", &P::min_range,
               {"m", 0, 20, "the least of the public configurations, 0.5 to 3",
-               "Points that are not farther from the sensor are left out and stay."})
+               "Points up to this range are left out and kept."})
       .number("max_range", &P::max_range,
               {"m", 1, 300, "the public configurations",
                "Voxels farther from the sensor are neither observed nor judged."})
@@ -31,10 +31,10 @@ void add_map(Table& table) {
                "A voxel takes a state whose probability is above this."})
       .integer("map_scans", &P::map_scans,
                {"scans", 1, 100000, "w_G, the public configurations",
-                "A voxel that was not seen for more scans is forgotten."})
+                "A voxel without observation for more scans is deleted."})
       .number("map_range_factor", &P::map_range_factor,
               {"", 1, 10, "constant of the public program",
-               "Voxels farther from the sensor than max_range times this are forgotten."});
+               "Voxels farther from the sensor than max_range times this are deleted."});
 }
 
 Table make_table() {
@@ -46,8 +46,7 @@ Table make_table() {
                 "Half side of the cube around a voxel in which changes are counted."})
       .integer("window_scans", &P::window_scans,
                {"scans", 1, 100, "w_L, the public configurations (3 for HeLiMOS)",
-                "Scores of so many scans are added up; one more scan is let pass before the first "
-                "score."})
+                "Number of scans whose scores are summed; the first score comes one scan later."})
       .number(
           "least_threshold", &P::least_threshold,
           {"", 0, 10000, "'minOtsu' of the public configurations",
@@ -55,15 +54,14 @@ Table make_table() {
            "dynamic in the scan before stays so if its score is above this."})
       .flag("public_lattice", &P::public_lattice,
             {.source = "the public program",
-             .sentence = "Indices of voxels are cut off towards zero, so that those around the "
-                         "origin are twice as wide, and a voxel lies at its corner; the sensor's "
-                         "voxel is rounded down all the same. Else all are rounded down, and a "
-                         "voxel lies at its middle."})
-      .flag(
-          "offline", &P::offline,
-          {.source = "ours",
-           .sentence = "Answer after the last scan: points whose voxel was free when its state was "
-                       "last known go as well."});
+             .sentence = "Voxel indices are truncated towards zero, so that voxels around the "
+                         "origin are twice as wide, and the position of a voxel is its corner; the "
+                         "sensor's voxel is rounded down. Else all are rounded down, and the "
+                         "position of a voxel is its centre."})
+      .flag("offline", &P::offline,
+            {.source = "ours",
+             .sentence = "Answer after the last scan: also remove points whose voxel was free when "
+                         "its state was last known."});
   return table;
 }
 
@@ -75,8 +73,8 @@ MethodEntry hmm_mos_entry() {
   entry.name = "hmm_mos";
   entry.version = "2";
   entry.sentence =
-      "A hidden Markov model of each voxel, free or occupied: what is occupied where it was free "
-      "just before moves.";
+      "A hidden Markov model estimates whether each voxel is free or occupied; points in voxels "
+      "that were free just before are moving.";
   entry.source =
       "Moving Object Segmentation in Point Cloud Data using Hidden Markov Models (IROS 2024 "
       "workshop)";
@@ -93,12 +91,13 @@ MethodEntry hmm_mos_entry() {
       "The default is the public program with its lattice; offline is without it.",
       "Nothing depends on the sensor but its range. Of the public configurations' least ranges "
       "the smallest is the default, which leaves out the fewest points.",
-      "What is hit beyond max_range is near to what is within, as in the public program: "
-      "distances are those to all hits of this scan and the one before.",
+      "Hits beyond max_range count for distances, as in the public program: distances are to all "
+      "hits of this scan and the one before.",
       "Where all scores are equal there is no threshold and nothing moves; voxels of the scan "
       "before may still stay dynamic for the next.",
-      "offline is ours: what moved when it was seen goes, and points whose voxel was free when "
-      "its state was last known. The public program has no answer for a whole map.",
+      "offline is ours: it removes points that moved when they were measured, and points whose "
+      "voxel was free when its state was last known. The public program has no answer for a whole "
+      "map.",
   };
   entry.variants = {
       {.name = "published", .sentence = "As the public program is set.", .online = true},
@@ -107,8 +106,8 @@ MethodEntry hmm_mos_entry() {
        .online = true,
        .overrides = {{"voxel_size", 0.2}}},
       {.name = "offline",
-       .sentence =
-           "Ours: voxels lie at their middle, and points go whose voxel was last known to be free.",
+       .sentence = "Ours: voxel positions are centres, and points whose voxel was last known to be "
+                   "free are removed.",
        .overrides = {{"public_lattice", false}, {"offline", true}}},
   };
   entry.bind(hmm_mos_method::make_table(), hmm_mos_method::make_hmm_mos);

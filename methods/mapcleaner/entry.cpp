@@ -14,38 +14,37 @@ void add_terrain(Table& table) {
   table.number("terrain_cell", &P::terrain_cell, {"m", 0.05, 2, kKitti, "Side of a terrain cell."})
       .integer("terrain_points", &P::terrain_points,
                {"points", 1, 100000, "1 for KITTI, 3 in its other settings",
-                "A cell with fewer ground points has no height of its own."})
+                "A cell with fewer ground points has no measured height."})
       .number("terrain_variance", &P::terrain_variance,
               {"m^2", 1e-6, 100, kPublic,
-               "Nor has one whose ground points' heights have no smaller variance."})
-      .number(
-          "fill_radius", &P::fill_radius,
-          {"m", 0, 5, kPublic,
-           "Cells without a height get one from those with one that are nearer than this; 0 fills "
-           "none."})
+               "A cell with at least this variance of ground heights has no measured height."})
+      .number("fill_radius", &P::fill_radius,
+              {"m", 0, 5, kPublic,
+               "Cells without a height are filled from cells with a height that are nearer than "
+               "this; 0 fills none."})
       .number("fill_deviation", &P::fill_deviation,
               {"m", 0.001, 100, kPublic,
-               "Cells count less the more they deviate from the smooth ground around them: this "
-               "is the deviation of their normal weight.",
+               "Standard deviation of the normal weight by which cells that deviate from the "
+               "smooth ground around them count less.",
                "fill_radius > 0"})
-      .integer("fill_cells", &P::fill_cells,
-               {"cells", 1, 10000, kPublic,
-                "A cell with fewer such cells around it stays without height, here and when "
-                "filling again.",
-                "fill_radius > 0 or refill_radius > 0"})
+      .integer(
+          "fill_cells", &P::fill_cells,
+          {"cells", 1, 10000, kPublic,
+           "A cell with fewer such cells around it is not filled, here and in the second filling.",
+           "fill_radius > 0 or refill_radius > 0"})
       .number("terrain_slope", &P::terrain_slope,
               {"deg", 0.1, 90, kPublic,
-               "Terrain is what can be reached from below the sensors through cells that are less "
-               "steep; 90 lets all pass."})
+               "Terrain is the set of cells that can be reached from below the sensors through "
+               "less steep cells; 90 is no limit."})
+      .number("start_radius", &P::start_radius,
+              {"m", 0, 50, "not in the public program",
+               "If there is no terrain below a sensor, or it is too steep, the search begins at "
+               "the nearest cells with terrain within this distance. If most of the ground within "
+               "this distance is too steep, slopes are relative to its median slope. 0: no search "
+               "begins there."})
       .number(
-          "start_radius", &P::start_radius,
-          {"m", 0, 50, "not in the public program",
-           "Where no terrain is below a sensor, or it is too steep, the way begins at the nearest "
-           "cells with terrain, if they are not farther than this. If most of the ground within "
-           "this distance is too steep, slopes count from its median slope. 0: no way begins "
-           "there."})
-      .number("refill_radius", &P::refill_radius,
-              {"m", 0, 5, kPublic, "The same as fill_radius, once the rest is dropped."})
+          "refill_radius", &P::refill_radius,
+          {"m", 0, 5, kPublic, "The same as fill_radius, after unreachable cells were dropped."})
       .number("refill_deviation", &P::refill_deviation,
               {"m", 0.001, 100, kPublic, "The same as fill_deviation.", "refill_radius > 0"});
 }
@@ -54,35 +53,34 @@ void add_split_and_votes(Table& table) {
   table
       .number("ground_height", &P::ground_height,
               {"m", 0, 10, kKitti,
-               "Points at most so far above or below the terrain are ground and stay."})
+               "Points within this height above or below the terrain are ground and kept."})
       .flag("remove_below", &P::remove_below,
-            {.source = "the public program saves them nowhere",
-             .sentence = "Points farther below the terrain go."})
+            {.source = "the public program does not save them",
+             .sentence = "Remove points farther below the terrain."})
       .number("voxel_size", &P::voxel_size,
               {"m", 0.05, 2, kPublic,
-               "Edge of a voxel, whose points are judged together, where their centroid is."})
+               "Edge of a voxel, whose points get one verdict, at their centroid."})
       .number("column_width", &P::column_width,
               {"deg", 0.08, 10, kKitti, "Width of a pixel of a scan's range image."})
       .number("row_height", &P::row_height, {"deg", 0.08, 10, kKitti, "Height of a pixel."})
-      .number(
-          "vertical_view", &P::vertical_view,
-          {"deg", 1, 180, kPublic,
-           "Height of the images, half of it above the horizon. What lies beyond is not judged.",
-           "public_field_of_view is true"})
+      .number("vertical_view", &P::vertical_view,
+              {"deg", 1, 180, kPublic,
+               "Height of the images, half of it above the horizon. Points outside get no votes.",
+               "public_field_of_view is true"})
       .integer("window_columns", &P::window_columns,
                {"pixels", 0, 20, kKitti,
-                "A voxel is compared with so many columns to either side of its own."})
+                "A voxel is compared with this many columns to either side of its own."})
       .integer("window_rows", &P::window_rows,
                {"pixels", 0, 20, kKitti, "The same for rows, above and below."})
       .number("tolerance", &P::tolerance,
               {"m", 0.01, 10, kKitti,
-               "A scan sees a voxel if a range in that window differs by no more. If all are "
-               "larger, it sees through it."})
+               "A scan supports a voxel if a range in that window differs by at most this. It sees "
+               "through the voxel if all ranges are larger."})
       .number("submap_radius", &P::submap_radius,
               {"m", 1, 500, kPublic, "Voxels within this distance of the sensor are compared."})
       .number("submap_travel", &P::submap_travel,
               {"m", 0, 500, kPublic,
-               "They are chosen anew once the sensor has moved farther than this."});
+               "These voxels are chosen again after the sensor moved farther than this."});
 }
 
 void add_switches(Table& table) {
@@ -96,11 +94,10 @@ void add_switches(Table& table) {
              .sentence = "A pixel has the range of the last point in it. Else it has the nearest."})
       .flag("public_steps", &P::public_steps,
             {.source = kPublic,
-             .sentence =
-                 "Pixels and bins are set for the HDL-64E of KITTI. Else pixels are at least so "
-                 "large that the window reaches over the angular steps of the sensor, and "
-                 "bin_points and lowest_points are fewer by as much as its directions are "
-                 "farther apart, but at least three."});
+             .sentence = "Pixels and bins are set for the HDL-64E of KITTI. Else pixels are "
+                         "enlarged until the window covers the angular steps of the sensor, and "
+                         "bin_points and lowest_points are reduced in proportion to its angular "
+                         "spacing, to at least three."});
 }
 
 Table make_table() {
@@ -121,30 +118,29 @@ std::vector<std::string> mapcleaner_notes() {
   return {
       "The default is the public program set for KITTI, whose ground segmentation is "
       "Patchwork++ instead of the paper's; its quirks have switches (public_...).",
-      "Dynamic is what is voted dynamic. The public program saves what lies below the terrain "
-      "nowhere, so that it goes (remove_below); what has no terrain it saves in a file of its "
-      "own as neither static nor dynamic, so that it stays.",
-      "Scans are not thinned before they come into the map, which the public program may do.",
+      "Points voted dynamic are dynamic. The public program does not save points below the "
+      "terrain, so they are removed (remove_below); it saves points without terrain in a separate "
+      "file as neither static nor dynamic, so they are kept.",
+      "Scans are not thinned before they are added to the map; the public program can do this.",
       "Voxels and terrain cells are those of the lattice at the world's origin.",
       "Patchwork++: variances are those of the sample; where only one plane is known, its "
-      "deviation is 0; where no plane of a ring is low enough, none is taken for being like "
-      "them; a bin all of whose points lie below 1.2 sensor heights begins with all of them.",
+      "deviation is 0; where no plane of a ring is low enough, none is accepted for similarity; a "
+      "bin all of whose points lie below 1.2 sensor heights begins with all of them.",
       "Filling: a cell at the distance of the radius does not count; one with too few others "
       "around it to have a smooth height does not count in the second round.",
       "A cell without neighbours along an axis is level along it.",
-      "A scan without points votes on nothing, and no terrain begins and no voxels are chosen "
-      "anew below it.",
+      "A scan without points has no votes, and no terrain search begins and no voxels are chosen "
+      "below it.",
       "sound begins the terrain at the cells nearest to a sensor that has none below it, up to "
-      "12.4 m away, where the innermost zone of Patchwork++ ends: else a sensor that stands has "
-      "no terrain. Where all ground within that distance is too steep, slopes count from its "
-      "median "
-      "slope, so that a hill has a terrain.",
-      "sound has pixels that are as large as it takes for the window around a voxel to reach from "
-      "one beam to the next, and asks for fewer points in a bin where the sensor's directions are "
-      "farther apart than those of the HDL-64E.",
+      "12.4 m away, where the innermost zone of Patchwork++ ends: else a stationary sensor has no "
+      "terrain. Where all ground within that distance is too steep, slopes are relative to its "
+      "median slope, so that a hill has a terrain.",
+      "sound has pixels so large that the window around a voxel reaches from one beam to the next, "
+      "and requires fewer points in a bin where the sensor's directions are farther apart than "
+      "those of the HDL-64E.",
       "Filling: however far a cell deviates, it counts at least exp(-60).",
       "sound has images a pixel larger on each side than the sensor's field of view.",
-      "sound tells the sensor's height by the median of the upright planes that its first scan "
+      "sound estimates the sensor's height by the median of the upright planes that its first scan "
       "with ground has in the innermost zone.",
       "Pixels of points and of voxels are found in single precision, and the terrain is filled "
       "in it, relative to a height nearby.",
@@ -162,8 +158,8 @@ MethodEntry mapcleaner_entry() {
   entry.name = "mapcleaner";
   entry.version = "2";
   entry.sentence =
-      "Terrain from the ground of all scans: what stands above it goes if more scans see through "
-      "it than see it.";
+      "Fits a terrain to the ground points of all scans; removes points above it that more scans "
+      "see through than support.";
   entry.source =
       "MapCleaner: Efficiently Removing Moving Objects from Point Cloud Maps in Autonomous Driving "
       "Scenarios (Remote Sensing 2022), ground by Patchwork++ (IROS 2022)";

@@ -30,25 +30,25 @@ void add_map(Table& table) {
               {"", 0.5, 0.9999, "liboctomap's default; KTH port: 0.97",
                "A cell's probability never rises above this."})
       .number("occupancy_threshold", &P::occupancy_threshold,
-              {"", 0.01, 0.99, kLibrary, "A cell is free, and its points go, below this."});
+              {"", 0.01, 0.99, kLibrary, "A cell below this is free, and its points are removed."});
 }
 
 void add_beams(Table& table) {
   table
       .number("maximum_range", &P::maximum_range,
               {"m", -1, 1000, "maxrange, liboctomap's default",
-               "Longer beams are cut here and hit nothing; -1 is unlimited."})
+               "Longer beams are truncated here and hit nothing; -1 is unlimited."})
       .flag("kth_nonexclusive", &P::kth_nonexclusive,
             {.source = kKth,
-             .sentence = "A cell both crossed and hit in one scan gets the miss and then the hit, "
-                         "where liboctomap lets the hit win."})
+             .sentence = "A cell that is crossed and hit in one scan gets a miss and a hit; in "
+                         "liboctomap only the hit counts."})
       .flag("cut_end_free", &P::cut_end_free,
             {.source = kKth,
-             .sentence = "The cell in which maximum_range cuts a beam counts as crossed, too.",
+             .sentence = "The cell in which maximum_range truncates a beam also counts as crossed.",
              .acts_when = "maximum_range > 0"})
       .flag("remove_unknown", &P::remove_unknown,
             {.source = kKth,
-             .sentence = "A point whose cell no scan has touched goes.",
+             .sentence = "Points in cells without any observation are removed.",
              .acts_when = "maximum_range > 0"});
 }
 
@@ -56,8 +56,8 @@ void add_filters(Table& table) {
   table
       .flag("ground", &P::ground,
             {.source = "KTH port, 'Octomap w G'",
-             .sentence = "Finds a ground plane in each scan; its points only free their beams, and "
-                         "always stay."})
+             .sentence = "Fits a ground plane in each scan; its points only free the cells along "
+                         "their beams, and are always kept."})
       .number("ground_distance", &P::ground_distance,
               {"m", 0.001, 1, kKth, "Points this near to the plane are ground.", kGround})
       .number("ground_angle", &P::ground_angle,
@@ -71,7 +71,9 @@ void add_filters(Table& table) {
           {"points", 1, 1000, "KTH port (2023): K", "Neighbours of the mean distance.", kNoise})
       .number("noise_sigma", &P::noise_sigma,
               {"", 0.01, 1000, "KTH port (2023): S",
-               "Outliers are above the mean by so many standard deviations.", kNoise});
+               "Points with a mean distance above the mean by this many standard deviations are "
+               "outliers.",
+               kNoise});
 }
 
 Table make_table() {
@@ -90,19 +92,19 @@ namespace {
 std::vector<std::string> octomap_notes() {
   return {
       "The map is liboctomap's tree with the leaves that insertPointCloud makes of the same scans, "
-      "kept to cells in which some scan has a point, for no other is asked for.",
+      "limited to cells in which some scan has a point.",
       "The tree's centre is the first scan's origin rounded to whole cells, so that coordinates "
       "stay exact in float far from the world's origin; the cells are those of the world's "
       "lattice.",
       "The verdict is given per point, of all points of all scans, not per cell centre.",
-      "A point whose cell no scan touched stays unless remove_unknown is set; one outside the tree "
-      "always stays, and its beam is left out.",
-      "Scans go in by increasing index; clamping makes the answer depend on that order.",
+      "A point in a cell without any observation is kept unless remove_unknown is set; a point "
+      "outside the tree is always kept, and its beam is left out.",
+      "Scans are inserted by increasing index; clamping makes the result depend on that order.",
       "kth, ground and ground-noise keep the KTH port's settings (0.1 m, clamping at 0.12 and "
       "0.97), its missing subtraction, and its dropping of unknown points; the port's map appends "
       "ground points a second time, here each point has one verdict.",
       "The ground plane is fitted in world axes, as in the KTH port: z must point up, which the "
-      "harness sees to.",
+      "harness ensures.",
       "The KTH port of 2024 swaps the noise filter's two settings when reading them; ground-noise "
       "is the filter of 2023 (K = 50, S = 1).",
       "octomap_server's own ground filter (200 tries, planes accepted by their height in a base "
@@ -113,18 +115,17 @@ std::vector<std::string> octomap_notes() {
 /// Fitted to five simulated worlds of development seeds, with five sensors. Most free points are
 /// ground, hence the low end of the curve.
 Calibration octomap_confidence() {
-  return {
-      "How likely a point's leaf is free (ground that is fitted never moves), by the curve of r20.",
-      {{0.0292F, 0.0035F},
-       {0.0429F, 0.0046F},
-       {0.1316F, 0.0090F},
-       {0.2610F, 0.0189F},
-       {0.4388F, 0.0273F},
-       {0.5426F, 0.0311F},
-       {0.6456F, 0.0613F},
-       {0.7924F, 0.0758F},
-       {0.8730F, 0.0900F},
-       {0.8808F, 0.2204F}}};
+  return {"How likely a point's leaf is free (fitted ground never moves), by the curve of r20.",
+          {{0.0292F, 0.0035F},
+           {0.0429F, 0.0046F},
+           {0.1316F, 0.0090F},
+           {0.2610F, 0.0189F},
+           {0.4388F, 0.0273F},
+           {0.5426F, 0.0311F},
+           {0.6456F, 0.0613F},
+           {0.7924F, 0.0758F},
+           {0.8730F, 0.0900F},
+           {0.8808F, 0.2204F}}};
 }
 
 }  // namespace
@@ -142,7 +143,8 @@ MethodEntry octomap_entry() {
   MethodEntry entry;
   entry.name = "octomap";
   entry.sentence =
-      "Probabilistic occupancy map of hits and beams; a point goes if its cell ends up free.";
+      "Estimates the occupancy probability of cells from hits and beams; removes points in cells "
+      "that are free at the end.";
   entry.source =
       "Hornung et al., OctoMap: an efficient probabilistic 3D mapping framework based on octrees, "
       "Autonomous Robots 34, 2013; liboctomap 1.9";

@@ -142,8 +142,8 @@ class OctomapRun {
     if (outside_ == 0 || context_.progress == nullptr) return;
     context_.progress->say("octomap: " + grouped_text(outside_) + " points lie more than " +
                            fixed_text(OccupancyMap::kReach * parameters_.resolution, 1) +
-                           " m from the first scan, outside the tree, and stay in the map "
-                           "without a verdict; use a larger resolution, or fewer scans.");
+                           " m from the first scan, outside the tree, and are kept without a "
+                           "verdict; use a larger resolution, or fewer scans.");
   }
 
   const Parameters& parameters_;

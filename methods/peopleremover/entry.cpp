@@ -21,23 +21,23 @@ Table make_table() {
                            "plane of the surface around it (point shadows)."})
       .integer("diff", &P::diff,
                {"scans", 0, 100000, "--diff",
-                "A voxel with points of a scan within so many of the beam's is not freed and stops "
-                "the beam."})
+                "A voxel with points of a scan whose number differs by at most this from the "
+                "beam's scan is not freed and stops the beam."})
       .integer("min_cluster_size", &P::min_cluster_size,
                {"voxels", 0, 1e9, "--min-cluster-size",
-                "Smaller 26-connected clusters of freed voxels are discarded; 1 or less keeps "
-                "all."})
+                "Smaller 26-connected clusters of freed voxels are discarded; 1 or less keeps all "
+                "clusters."})
       .flag("subvoxel_accuracy", &P::subvoxel_accuracy,
             {.source = "--no-subvoxel-accuracy",
-             .sentence = "Remove, near a freed voxel, also the points of the scans that have "
-                         "points in it."})
+             .sentence =
+                 "Also remove points near a freed voxel, of the scans that have points in it."})
       .integer("half_voxel_radius", &P::half_voxel_radius,
-               {"voxels", 1, 8, kConstant, "How near is near for subvoxel_accuracy.",
+               {"voxels", 1, 8, kConstant, "Distance for subvoxel_accuracy.",
                 "subvoxel_accuracy is true"})
       .number("minimum_range", &P::minimum_range,
               {"m", 0, 100, kConstant,
-               "Points this near are left out and stay static; 0 takes the voxel diagonal, as "
-               "3DTK does."});
+               "Points nearer to the sensor than this are left out and kept; 0 is the voxel "
+               "diagonal, as in 3DTK."});
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ MethodEntry peopleremover_entry() {
   MethodEntry entry;
   entry.name = "peopleremover";
   entry.sentence =
-      "Frees voxels that a single beam of a scan passes through which has no point there, and "
-      "removes the points in them.";
+      "Frees every voxel that a beam passes before the surface that its scan measures, and removes "
+      "the points in free voxels.";
   entry.source =
       "Schauer and Nuechter: The Peopleremover - Removing Dynamic Objects From 3-D Point Cloud "
       "Data by Traversing a Voxel Occupancy Grid, RA-L 2018";
@@ -71,7 +71,7 @@ MethodEntry peopleremover_entry() {
       "version follows none there and removes nothing.",
       "maxrange_method = normals is the default here and the choice of 3DTK's own example; 3DTK's "
       "default is none.",
-      "Points within the minimum range, which 3DTK drops, are answered for: static.",
+      "Points within the minimum range, which 3DTK drops, are static.",
       "A point within two voxel diagonals of the sensor has no beam; 3DTK takes the arc sine of a "
       "value above 1 there.",
       "The normal is towards the sensor where fewer than three points, or points on a line, would "
@@ -91,8 +91,7 @@ MethodEntry peopleremover_entry() {
        .overrides = {{"maxrange_method", none}}},
       {.name = "plain",
        .sentence =
-           "Whole beams, voxels of 0.2 m, freed voxels only: comes nearest to the rows that papers "
-           "print.",
+           "Whole beams, voxels of 0.2 m, freed voxels only: closest to the published rows.",
        .overrides = {{"maxrange_method", none}, {"subvoxel_accuracy", false}}},
   };
   entry.bind(peopleremover_method::make_table(), peopleremover_method::make_peopleremover);

@@ -29,7 +29,7 @@ void add_grid(Table& table) {
               {"m", 1, 500, "eq. 7, Table 1", "Rays end here; points beyond stay static."})
       .number("minimum_range", &P::minimum_range,
               {"m", 0, 20, kOurs,
-               "Ego radius: nearer points go to no bin and nearer map voxels stop no ray."});
+               "Ego radius: nearer points are in no bin and nearer map voxels stop no ray."});
 }
 
 void add_tests(Table& table) {
@@ -49,21 +49,21 @@ void add_tests(Table& table) {
               {"", 0, 2, kOurs, "Part of the erase test's margin that grows with the map's range."})
       .number("erase_height", &P::erase_height,
               {"voxels", 0, 10, kOurs,
-               "The ray must have changed its height by this much between the first hit and the "
-               "return behind it; less may be one surface seen at a grazing angle."})
+               "Minimum change of the ray's height between the first hit and the return behind it; "
+               "with less, both may be on one surface at a grazing angle."})
       .number("erase_height_limit", &P::erase_height_limit,
               {"m", 0, 100, kOurs,
-               "Beyond this distance behind the first hit no change of height is asked for.",
+               "Beyond this distance behind the first hit no change of height is required.",
                "erase_height > 0"})
       .number("erase_percentile", &P::erase_percentile,
               {"", 0, 1, "eq. 9 ('lower quantile' in the text)",
                "Quantile of the window of first hits in the erase test."})
       .integer("erase_azimuth_window", &P::erase_azimuth_window,
                {"bins", 0, 30, kOurs,
-                "A voxel is erased only if no return within so many columns supports it."})
+                "A voxel is erased only if no return within this many columns supports it."})
       .integer("erase_elevation_window", &P::erase_elevation_window,
                {"bins", -1, 100, kOurs,
-                "A voxel is erased only if no return within so many rows supports it; -1 reaches "
+                "A voxel is erased only if no return within this many rows supports it; -1 reaches "
                 "the neighbouring beam, but at most 0.5 degrees."});
 }
 
@@ -90,7 +90,7 @@ void add_validation_and_answer(Table& table) {
                 kValidate})
       .integer("coverage_dilation", &P::coverage_dilation,
                {"voxels", 0, 5, "eq. 14, delta_v (no value)",
-                "A point is covered if the static map is within so many voxels.", kValidate})
+                "A point is covered if the static map is within this many voxels.", kValidate})
       .number("coverage_static", &P::coverage_static,
               {"", 0, 1.01, "eq. 15, theta_cov (no value)",
                "A group covered at least this much is static; above 1: never.", kValidate})
@@ -99,7 +99,7 @@ void add_validation_and_answer(Table& table) {
                "A thin group covered at least this much is static; above 1: never.",
                "validate is true and coverage_static > 0"})
       .number("thin_side", &P::thin_side,
-              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group this thin is thin.",
+              {"m", 0, 5, "eq. 15, theta_thin (no value)", "A group at most this thick is thin.",
                "validate is true and coverage_edge <= 1"})
       .integer("support_dilation", &P::support_dilation,
                {"voxels", 0, 5, "section 3, 'unsupported points' (no value)",
@@ -136,10 +136,9 @@ namespace {
 
 std::vector<MethodVariant> raymoval_variants() {
   return {
-      {.name = "offline",
-       .sentence = "Every scan tested against the prior map that all scans leave."},
+      {.name = "offline", .sentence = "Tests every scan against the final map of all scans."},
       {.name = "online",
-       .sentence = "Each scan answered when it arrives, from a growing map.",
+       .sentence = "Answers each scan when it arrives, from the map of the scans so far.",
        .online = true,
        .overrides = {{"offline", false}}},
       {.name = "table1",
@@ -158,8 +157,8 @@ MethodEntry raymoval_entry() {
   MethodEntry entry;
   entry.name = "raymoval";
   entry.sentence =
-      "Raycasting against the map: flags what stands in front of it, erases what is "
-      "seen through, validates clusters against what remains.";
+      "Casts rays against the map: flags points in front of it, erases voxels that a scan sees "
+      "through, validates clusters of flagged points against the remaining map.";
   entry.source = "Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping";
   entry.bibtex = R"(@misc{raymoval2025,
   title = {Raymoval: Raycasting-based Dynamic Object Removal for Static 3D Mapping},

@@ -134,7 +134,7 @@ enum Reason : std::uint8_t { kNeverContradicted, kSeenThrough, kInFrontOfMap, kR
 
 std::vector<std::string> reason_sentences() {
   return {"no scan contradicts its voxel, which stays in the map", "a scan saw through its voxel",
-          "it stands in front of the map (eq. 11)",
+          "it lies in front of the map (eq. 11)",
           "it was a candidate, and validation found that it belongs to the static map"};
 }
 

@@ -26,13 +26,13 @@ void add_passes_and_test(Table& table) {
       .number("revert_resolution_1", &P::revert_resolution_1,
               {kUnit, 0, 20, kRevertList,
                "Pixels per degree of the first revert pass, below the last remove pass's; 0: no "
-               "pass. With fewer pixels more points come back."})
+               "pass. Fewer pixels restore more points."})
       .number("gamma", &P::gamma,
               {"", 0, 0.99, kCode,
                "A map point is dynamic if it is nearer than the scan's return by more than this "
                "share of the return's range."})
       .number("diff_upper", &P::diff_upper,
-              {"m", 0, 9999, kCode, "Differences from this on are not believed."})
+              {"m", 0, 9999, kCode, "Larger differences of range are ignored."})
       .choice("difference", &P::difference,
               {{"signed", DifferenceRule::kSigned}, {"absolute", DifferenceRule::kAbsolute}},
               {.source = "lt-mapper (signed), public code (absolute)",
@@ -57,10 +57,10 @@ void add_image_and_map(Table& table) {
              .acts_when = "horizontal_fov is 360"})
       .flag("update_between_passes", &P::update_between_passes,
             {.source = kCode,
-             .sentence = "Take flagged points out of the map before the next pass, so that it sees "
-                         "what they hid; the ROS-free port does not."})
+             .sentence = "Remove flagged points from the map before the next pass, which then uses "
+                         "the points behind them; the ROS-free port does not."})
       .number("map_voxel", &P::map_voxel,
-              {"m", 0.01, 2, kCode, "Edge of the cells whose centroids are the map."});
+              {"m", 0.01, 2, kCode, "Edge of the cells whose centroids form the map."});
 }
 
 Table make_table() {
@@ -94,12 +94,12 @@ std::vector<MethodVariant> removert_variants() {
        .sentence = "Three remove passes and one revert pass (RM3+RV1; a '+' cannot name a result).",
        .overrides = {{"revert_resolution_1", 1.8182}}},
       {.name = "code",
-       .sentence = "As the public code answers, its faults included.",
+       .sentence = "The results of the public code, including its errors.",
        .overrides =
            removert_with(code, {{"remove_resolution_2", 2.0}, {"remove_resolution_3", 1.5}})},
       {.name = "port",
-       .sentence = "As the ROS-free port answers with images along the sensor's axes; it tests the "
-                   "same map in every pass.",
+       .sentence = "The results of the ROS-free port with images along the sensor's axes; it tests "
+                   "the same map in every pass.",
        .overrides = removert_with(code, {{"update_between_passes", false}})},
   };
 }
@@ -110,8 +110,8 @@ MethodEntry removert_entry() {
   MethodEntry entry;
   entry.name = "removert";
   entry.sentence =
-      "Multiresolution range images: removes map points that a scan sees through, then brings back "
-      "those that coarser pixels do not confirm.";
+      "Compares range images of map and scan: removes map points that a scan sees through, then "
+      "restores those that coarser images do not confirm.";
   entry.source =
       "Kim and Kim, Remove, then Revert: Static Point cloud Map Construction using "
       "Multiresolution Range Images, IROS 2020";
@@ -128,18 +128,18 @@ MethodEntry removert_entry() {
   entry.notes = {
       "Written from a description of the method; nothing of the public code is in it.",
       "The difference is signed, as in the author's later lt-mapper; the public code takes its "
-      "absolute value and so also removes what stands behind a return.",
+      "absolute value and so also removes points behind a return.",
       "Points outside the vertical field of view are in no pixel; the public code puts them into "
       "the border rows.",
       "The public code's revert is empty; here, as in lt-mapper, the removed points alone are "
-      "compared with all scans at coarser pixels and come back unless flagged, with the same "
+      "compared with all scans at coarser pixels and are restored unless flagged, with the same "
       "relative margin as in the remove passes.",
-      "RM3's resolutions are those of the ROS-free port, which names them the published "
-      "comparison's; RV1's 0.55 degrees is unverified.",
+      "RM3's resolutions are those of the ROS-free port, which attributes them to the published "
+      "comparison; RV1's 0.55 degrees is unverified.",
       "A single scan removes a map point.",
       "The map's cells lie on the lattice at the world's origin, and a point is removed iff its "
-      "cell is; the public code's lattice depends on the cloud, and its points ask the nearest "
-      "neighbour.",
+      "cell is; the public code's lattice depends on the cloud, and its points get the verdict of "
+      "the nearest neighbour.",
       "Scans are not thinned: the public code's filter returns its input on scans of this size.",
       "No KD-tree ball and no empty-pixel value: every map point is compared, and an empty pixel "
       "is empty.",

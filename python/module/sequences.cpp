@@ -121,7 +121,7 @@ std::optional<Eigen::Vector3d> up_from(const py::object& given) {
   if (given.is_none()) return std::nullopt;
   const std::string text = py::str(given);
   const auto up = parse_up(text);
-  if (!up) throw UsageError("up: '" + text + "' is no direction; " + kUpForm + ".");
+  if (!up) throw UsageError("up: '" + text + "' is not a direction; " + kUpForm + ".");
   return up;
 }
 

@@ -113,7 +113,7 @@ class Run:
 
     @property
     def good(self) -> bool:
-        """Whether no cell failed and the controls are as they must be."""
+        """Whether no cell failed and the controls have their expected scores."""
         return not self.failures and not self.control_problems
 
     @property

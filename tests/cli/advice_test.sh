@@ -60,7 +60,7 @@ for place in data/05 town unlabelled:05; do
       $command $place
   done
 done
-expect 0 "All controls are as they must be" run data/05 --method noop --quiet --out by_place
+expect 0 "All controls have their expected scores" run data/05 --method noop --quiet --out by_place
 expect 2 "has no labels" run unlabelled:05 --method noop --out o
 mkdir -p intensity/pcd
 printf '%s\n' "VERSION 0.7" "FIELDS x y z intensity" "SIZE 4 4 4 4" "TYPE F F F F" "COUNT 1 1 1 1" \
@@ -83,14 +83,14 @@ for command in "clean -o map.pcd --method noop" inspect; do
   expect 2 "--sequence is given 2 times" $command data/05 --sequence data/05
 done
 rm map.pcd
-expect 2 "run what?" run
-expect 2 "run what?" run --method noop
+expect 2 "SUITE is missing" run
+expect 2 "SUITE is missing" run --method noop
 expect 2 "a method with --method" plan --sequence data/05
 
 # Folders that are no runs; references have no run.json.
 for command in table report "compare kept" "picture -o p.png"; do
   # shellcheck disable=SC2086
-  expect 2 "data/05: is no run folder (no run.json in it)" $command data/05
+  expect 2 "data/05: is not a run folder (no run.json in it)" $command data/05
 done
 mkdir reference early early/cells
 cp kept/results.json reference
@@ -107,7 +107,7 @@ expect 2 "unlabelled/sequences/05: segment kitti-05 is frames 2350:2670:2, but t
   clean unlabelled:kitti-05 -o map.pcd
 expect 2 "has no sequence '06'. Did you mean '05'? A root holds sequences/NN; known here: 05, kitti" \
   inspect unlabelled:06
-expect 2 "sequence 'town' has no labels, and oracle answers from them; choose another --method." \
+expect 2 "sequence 'town' has no labels, and oracle needs them; choose another --method." \
   clean unlabelled:05 -o map.pcd --method oracle --quiet
 
 # Where a file cannot be written is told before the work.
@@ -119,8 +119,8 @@ expect 2 "nowhere/a.html: $there" report kept -o nowhere/a.html
 # Slips of words, values and options without one.
 expect 2 "Did you mean 'town'" simulate twon -o o
 expect 2 "A single frame is 5:5." inspect data/05 --frames 5
-expect 2 "fits no cell of this run" picture kept -o map.png --overwrite --only nothing --quiet
-expect 2 "fits no cell of this suite" run "$(suite_anywhere simulated)" --only nothing --out o
+expect 2 "matches no cell of this run" picture kept -o map.png --overwrite --only nothing --quiet
+expect 2 "matches no cell of this suite" run "$(suite_anywhere simulated)" --only nothing --out o
 holds "nothing was generated to find out" test -z "$(find cache -name 'highway*')"
 expect 2 "are called 'town' (data/05 and one). Run them into two folders, the second with --name NAME" \
   run --sequence data/05 --sequence one --method noop --out o
@@ -191,7 +191,7 @@ for command in "" compare; do
   # shellcheck disable=SC2086
   expect 0 "raymoval compare out/quick results/reference/street" $command --help
 done
-expect 0 "variants worth a comparison" list suites
+expect 0 "the default variant of every method" list suites
 expect 0 "this project" describe raymoval_plus
 parameters() { "$raymoval" describe "$@" | sed -nE 's/^  ([a-z_0-9]+) = .*/\1/p'; }
 holds "describe shows five main parameters" test "$(parameters raymoval_plus | wc -l)" -eq 5

@@ -10,7 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 reference=$sources/results/reference/street
 
 # One in a hundred of the points that dufomap removes is lost.
-FAULTY_SLIP=dufomap expect 0 "All controls are as they must be" \
+FAULTY_SLIP=dufomap expect 0 "All controls have their expected scores" \
   run "$sources/benchmark/suites/quick.json" --quiet --out run
 expect 1 "street / dufomap:offline, erasor: RR" compare run "$reference"
 cp out.txt told.txt

@@ -28,7 +28,7 @@ expect 2 "points-in-millimetres: points of all scans read: half of the points" \
   clean millimetres -o map.pcd --labels labels_out --quiet
 cp err.txt said.txt
 holds "the remedy is said" grep -q "Multiply the coordinates by 0.001." said.txt
-holds "and how to go on" grep -q -- "--force cleans all the same" said.txt
+holds "and how to go on" grep -q -- "--force cleans it nevertheless" said.txt
 nothing_left "a refusal"
 
 # Poses of a camera read as the LiDAR's.
@@ -36,9 +36,9 @@ cp -r drive frames
 sed -i 's/"poses"/"poses_are_lidar": true, "poses"/' frames/sequence.json
 expect 2 "camera-frame: poses.txt" clean frames -o map.pcd --quiet
 nothing_left "a refusal of poses"
-expect 0 "warning: going on because of --force, in spite of camera-frame" \
+expect 0 "warning: continuing because of --force, in spite of camera-frame" \
   clean frames "${online[@]}" -o forced.pcd --force
-expect 0 "poses-inverted: poses take the world to the sensor (T_sensor_world). (clean refuses it)" \
+expect 0 "poses-inverted: poses transform from the world to the sensor (T_sensor_world). (clean refuses it)" \
   inspect --list
 expect 0 "few-points: a scan has far fewer points than those around it. (clean warns)" inspect --list
 
@@ -69,12 +69,12 @@ holds "labels tell what is beyond" test "$(words near | grep ^9:)" = "9:$points"
 holds "by 0" grep -q "^0:[1-9]" <(words near)
 
 # --drop-ego: no method sees these points, and no output has them.
-expect 0 "of the own vehicle (nearer than 6 m) and are left out." clean street --frames 0:2 \
+expect 0 "on the ego vehicle (nearer than 6 m) and are left out." clean street --frames 0:2 \
   --method remove-all --quiet --drop-ego 6 -o ego.pcd --labels ego
 holds "labels tell what was dropped" grep -q "^0:[1-9]" <(words ego)
-expect 2 "--drop-ego 'car' says no part" clean street --drop-ego car -o map.pcd
+expect 2 "--drop-ego 'car' is not a region" clean street --drop-ego car -o map.pcd
 expect 0 "street: " run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 --method noop --out run
-holds "run says it once" test "$(grep -c 'of the own vehicle (in the box' err.txt)" -eq 1
+holds "run says it once" test "$(grep -c 'on the ego vehicle (in the box' err.txt)" -eq 1
 holds "the record has it" grep -q '"left_out": "-9:9,-3:3,:-1"' run/cells/street/noop-default/cell.json
 expect 0 "All controls" run --sequence street --frames 0:2 --drop-ego -9:9,-3:3,:-1 \
   --method comb --set comb.milliseconds=0 --keep-removals --quiet --out run
@@ -110,7 +110,7 @@ expect 2 "was not written by" clean drive "${online[@]}" --scans drive --overwri
 ln drive/poses.txt all/poses.pcd
 expect 2 "is read as an input" clean drive "${online[@]}" -o all/poses.pcd --overwrite
 expect 2 "not stored in files" clean street "${online[@]}" --scans map_scans
-expect 2 "no known cloud format" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
+expect 2 "not a known cloud format" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
 nothing_left "a refusal of outputs"
 
 # Tiles hold together what the map holds.
@@ -126,7 +126,7 @@ expect 2 "more than 10,000 tiles of 0.001 m, which is the limit of a map. Choose
 holds "no folder of tiles is left" test ! -e tiny
 
 # How sure the method is stands behind the other fields of each map, and changes nothing else.
-expect 2 "raymoval does not tell how sure it is" clean drive "${online[@]}" -o sure.pcd --confidence
+expect 2 "raymoval has no confidence" clean drive "${online[@]}" -o sure.pcd --confidence
 expect 2 "--confidence has no effect" clean drive --labels sure --confidence
 sure=(--method octomap --quiet)
 expect 0 "" clean drive "${sure[@]}" -o unsure.pcd

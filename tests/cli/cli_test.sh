@@ -11,7 +11,7 @@ short=(--sequence street --frames 0:2 --quiet)
 # Help and listings.
 expect 0 "Examples" --help
 for command in run plan table compare list describe score clean simulate inspect report picture; do expect 0 "Examples" "$command" --help; done
-expect 0 "Scenes that are not in the cache are simulated for it" run --help
+expect 0 "Scenes that are not in the cache are simulated first" run --help
 expect 0 "into \$RAYMOVAL_CACHE" plan --help
 expect 0 "raymoval 1." --version
 expect 0 "oracle" list
@@ -34,14 +34,14 @@ expect 0 "Confidence: none." describe raymoval
 asked=(run "${short[@]}" --method octomap --method raymoval:online --out sure)
 expect 0 "" "${asked[@]}"
 expect 0 "1 of 5 cells are to be run." "${asked[@]}" --confidence --explain
-expect 0 "octomap:r20: its confidence is asked for" "${asked[@]}" --confidence --explain
+expect 0 "octomap:r20: its confidence is requested" "${asked[@]}" --confidence --explain
 expect 0 "" "${asked[@]}" --confidence
 expect 0 "0 of 5 cells are to be run." "${asked[@]}" --confidence --explain
 holds "the cell has bins" grep -q '"mean_gap"' sure/cells/street/octomap-r20/cell.json
 holds "others have none" test -z "$(grep -l mean_gap sure/cells/street/raymoval-online/cell.json)"
 holds "the table tells" grep -q "Confidence of octomap" sure/table.md
 expect 0 "" report sure -o sure.html --no-points
-holds "the page has the chart" grep -q "What methods say of points, and what comes true" sure.html
+holds "the page has the chart" grep -q "Confidence of points, and the share of them that moves" sure.html
 
 # Slips of the command line name what is near.
 expect 2 "a command is missing"
@@ -62,7 +62,7 @@ expect 2 "two methods" run "${short[@]}" --method noop --method noop:default --o
 expect 2 "METHOD.key=value" run "${short[@]}" --method raymoval --set tau0=1 --out o
 expect 2 "write protocol:erasor.key=value" run "${short[@]}" --method noop --set erasor.lift=0 --out o
 expect 2 "'lift'" run "${short[@]}" --method noop --set protocol:erasor.lft=0 --out o
-expect 2 "no protocol asked for" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
+expect 2 "not a requested protocol" run "${short[@]}" --method noop --set protocol:dynamicmap.distance=1 --out o
 expect 2 "'tau0'" run "${short[@]}" --method raymoval --set raymoval.tau=1 --out o
 expect 2 "out of range" run "${short[@]}" --method raymoval --set raymoval.tau0=-1 --out o
 expect 2 "not in this run" run "${short[@]}" --method raymoval --set noop.tau0=1 --out o
@@ -83,14 +83,14 @@ expect 2 "nowhere" run nowhere.json --out o
 expect 2 "nothing to run on" plan
 expect 2 "Did you mean 'simulated'" plan simulatd
 expect 2 "no such run folder" table nowhere
-expect 2 "which run" table
-expect 2 "which run" report
+expect 2 "RUN is missing" table
+expect 2 "RUN is missing" report
 expect 2 "no such run folder" report nowhere
 expect 2 "--points 7" report nowhere --points 7
 holds "no bad command line made a folder" test ! -e o
 
 # A run, its files, and what reads them.
-expect 0 "All controls are as they must be" run "${short[@]}" --method raymoval:online \
+expect 0 "All controls have their expected scores" run "${short[@]}" --method raymoval:online \
   --set raymoval.tau0=0.2 --keep-removals --out run
 for file in run.json results.json results.csv table.md table.tex; do
   holds "the run has $file" test -s run/$file
@@ -122,8 +122,8 @@ cp out.txt told.txt
 holds "what was not chosen is left out" test -z "$(grep noop told.txt)"
 expect 0 "| sequence " table run --layout paper
 expect 2 "'paper'" table run --layout papper
-expect 2 "--sort go with" table run --format json --sort F1
-expect 2 "fits no cell of this run" table run --only nothing
+expect 2 "--sort need" table run --format json --sort F1
+expect 2 "matches no cell of this run" table run --only nothing
 
 # A changed parameter is marked wherever the row stands, and may have a name.
 note="tau0 = 0.2 (default 0.3)"
@@ -165,7 +165,7 @@ holds "a report has those of the same frames" grep -q '(published)' segment.html
 holds "a report has BibTeX to copy" grep -q 'lim2021erasor' ten.html
 
 # Options of a protocol from the command line; frame = erasor needs a camera's calibration.
-expect 0 "All controls are as they must be" run "${short[@]}" --method noop --protocol dynamicmap \
+expect 0 "All controls have their expected scores" run "${short[@]}" --method noop --protocol dynamicmap \
   --set protocol:dynamicmap.maximum_range=10 --out near
 holds "a protocol's option is recorded" grep -q '"maximum_range": 10' \
   near/cells/street/noop-default/cell.json
@@ -183,7 +183,7 @@ expect 2 "--time-band" compare run reference --time-band 3
 holds "a reference without times is told once" test "$("$raymoval" compare run reference --time-band 3 2>/dev/null | grep -c with-times)" -eq 1
 expect 0 "with its times" compare run timed --update --with-times
 expect 0 "1.00 times" compare run timed --time-band 3
-expect 2 "--with-times goes with --update" compare run timed --with-times
+expect 2 "--with-times needs --update" compare run timed --with-times
 expect 2 "--update compares nothing" compare run timed --update --across parameters
 expect 2 "two results" compare run
 expect 2 "no such run folder" compare run nowhere
@@ -247,7 +247,7 @@ holds "score gives the counts of the run" diff <(counts score.json | tr -d ' ') 
 expect 2 "--predictions" score "${short[@]}"
 expect 2 "no such folder" score "${short[@]}" --predictions nowhere
 expect 2 "removals/ does" score "${short[@]}" --predictions $cell
-expect 2 "is no folder" score "${short[@]}" --predictions $cell/removals/000000.label
+expect 2 "is not a folder" score "${short[@]}" --predictions $cell/removals/000000.label
 expect 2 "is a folder" score "${short[@]}" --cloud $cell/removals
 expect 2 "put -o before it" clean street map.pcd
 expect 2 "missing" score --sequence street --frames 0:3 --quiet --predictions $cell/removals
@@ -262,10 +262,10 @@ expect 0 "the oracle's cloud, scored in the same way: PR" score "${short[@]}" --
 expect 0 "precision" score "${short[@]}" --cloud clean.pcd --voxel 0.1
 # The oracle is no upper limit: without a point, every moving one is gone.
 "$raymoval" clean street --frames 0:30 --method remove-all --quiet -o nothing.bin >/dev/null
-expect 0 "DA above the oracle's: that is no upper limit" score --sequence street --frames 0:30 --quiet \
+expect 0 "DA above the oracle's, which is not an upper limit" score --sequence street --frames 0:30 --quiet \
   --cloud nothing.bin --protocol dynamicmap
 printf '\x00\x00\xc0\x7f%.0s' 1 2 3 4 >nan.bin
-expect 0 "no finite number" score "${short[@]}" --cloud nan.bin
+expect 0 "not finite" score "${short[@]}" --cloud nan.bin
 : >empty.bin
 expect 0 "PR 0.000" score "${short[@]}" --cloud empty.bin
 expect 2 "exclude" score "${short[@]}" --cloud clean.pcd --predictions $cell/removals
@@ -321,7 +321,7 @@ holds "a point says what was set" grep -q "^| tau1=0.35 " told.txt
 expect 2 "sweeps this parameter" run sweep.json --set raymoval.tau1=0.2 --out sweep
 expect 2 "--data ROOT" run semantickitti --out kitti
 expect 2 "--data is given" run sweep.json --data . --out kitti
-expect 2 "--data goes with" run "${short[@]}" --method noop --data . --out kitti
+expect 2 "--data needs" run "${short[@]}" --method noop --data . --out kitti
 semantickitti=$(suite_anywhere semantickitti)
 expect 2 "holds no folder sequences/" run "$semantickitti" --data "$work" --out kitti
 mkdir -p root/sequences
@@ -382,7 +382,7 @@ cp map.pcd before.pcd
 expect 0 "removed" "${online[@]}" -o map.pcd --labels labels --overwrite --threads 2
 holds "the same run gives the same map" cmp map.pcd before.pcd
 touch labels/notes.txt
-expect 2 "no label file" "${online[@]}" -o new.pcd --labels labels --overwrite
+expect 2 "not a label file" "${online[@]}" -o new.pcd --labels labels --overwrite
 # A disk with room for 64 KiB in each file: the map stays as it was and nothing else is left.
 checks=$((checks + 1))
 # (A program that counts its lines for coverage must not write its counts under that limit.)
@@ -393,7 +393,7 @@ holds "a full disk leaves the map" cmp map.pcd before.pcd
 holds "nothing is left beside the maps" test -z "$(find . -name '*.part*')"
 # Maps do not go among scans, nor labels over the truth.
 mkdir scans && cp map.bin scans/1.bin && echo "1 0 0 0 0 1 0 0 0 0 1 0" >scans/poses.txt
-expect 2 "among the scans" clean scans --quiet --method noop -o scans/static.pcd
+expect 2 "in the folder of the scans" clean scans --quiet --method noop -o scans/static.pcd
 expect 0 "removed" clean scans --quiet --method noop -o of_scans.pcd
 # 16 bytes a point in both, and less than 400 for the head.
 more=$(($(stat -c %s of_scans.pcd) - $(stat -c %s map.bin)))
@@ -406,7 +406,7 @@ expect 0 "2 scans" simulate town -o sim/town "${tiny[@]}" --seed 3 --threads 1
 for file in velodyne/000001.bin labels/000001.label poses.txt calib.txt sequence.json; do
   holds "a simulated sequence has $file" test -s sim/town/$file
 done
-expect 2 "the truth" clean sim/town --method noop --quiet -o town_map.pcd \
+expect 2 "the ground-truth labels" clean sim/town --method noop --quiet -o town_map.pcd \
   --labels sim/town/labels --overwrite
 mkdir empty
 expect 0 "2 scans" simulate town -o empty "${tiny[@]}" --seed 3 --threads 2
@@ -423,13 +423,13 @@ for wrong in "--scans 0" "--scans two" "--seed -1" "--pose-noise -1" "--threads 
   # shellcheck disable=SC2086
   expect 2 "${wrong% *}" simulate town -o other_sim $wrong
 done
-expect 2 "simulate what" simulate -o other_sim
+expect 2 "SCENE is missing" simulate -o other_sim
 expect 2 "-o DIR" simulate town
 holds "no refused simulation left a folder" test ! -e other_sim
 holds "nothing half written is left" test -z "$(find . -name '*.part')"
-expect 0 "All controls are as they must be" run --sequence sim/town --method noop --quiet \
+expect 0 "All controls have their expected scores" run --sequence sim/town --method noop --quiet \
   --out run_folder
-expect 0 "All controls are as they must be" run --quiet --method noop \
+expect 0 "All controls have their expected scores" run --quiet --method noop \
   --sequence town:scans=2,sensor=vlp16,seed=3 --out run_scene
 fingerprint() { grep -o '"fingerprint": "[^"]*"' "$1/cells/town/oracle-default/cell.json"; }
 holds "a cell tells its data's fingerprint" test -n "$(fingerprint run_folder)"
@@ -476,7 +476,7 @@ for input in poses.txt calib.txt labels/000000.label velodyne/000000.bin; do
     --json sim/town/$input --overwrite --quiet
   holds "$input stays" cmp kept.input sim/town/$input
 done
-expect 2 "inspect what" inspect
+expect 2 "PATH is missing" inspect
 expect 2 "--point-time-unit min: expected s, ms, us, ns" inspect sim/town --point-time-unit min
 expect 2 "sim/town." inspect sim/town/velodyne
 expect 2 "is a scan" inspect sim/town/velodyne/000000.bin
@@ -500,19 +500,19 @@ for kind in pr-rr stages accuracy-time; do
   holds "$kind is an SVG" grep -q '^<svg xmlns="http://www.w3.org/2000/svg"' $kind.svg
 done
 expect 2 "no method has what --kind sweep shows" picture shown -o sweep.svg --kind sweep
-expect 2 "which run" picture -o map.png --overwrite
+expect 2 "RUN is missing" picture -o map.png --overwrite
 expect 2 "-o FILE.png" picture shown
 expect 2 "no such run folder" picture nowhere -o map.png --overwrite
 expect 2 "Did you mean 'overview'" picture shown -o map.png --overwrite --kind overvew
 expect 2 ".svg" picture shown -o map.jpg --kind stages
 expect 2 "--only" picture shown -o map.png --overwrite --method raymoval:online
-expect 2 "--crop goes with --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
+expect 2 "--crop needs --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
 expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --overwrite --crop 5:1:0:1 --quiet
 expect 2 "--crop 1000:2000:1000:2000: no point lies there" \
   picture shown -o map.png --overwrite --crop 1000:2000:1000:2000 --quiet
 expect 2 "--size" picture shown -o map.png --overwrite --size 7 --quiet
 expect 2 "coarser --resolution" picture shown -o map.png --overwrite --resolution 0.0001 --quiet
-expect 2 "fits no cell" picture shown -o map.png --overwrite --only nothing --quiet
+expect 2 "matches no cell" picture shown -o map.png --overwrite --only nothing --quiet
 expect 2 "Did you mean 'street'" picture shown -o a.png --kind overview --sequence stret --quiet
 expect 2 "--protocol" picture shown -o rates.svg --kind pr-rr --protocol erasr
 expect 2 "--keep-removals" picture run_scene -o map.png --overwrite --only '*' --quiet

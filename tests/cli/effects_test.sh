@@ -39,7 +39,7 @@ cat >sweep.json <<'END'
 {"sequences": [{"path": "street", "frames": "0:4"}], "controls": false, "methods": [
   {"method": "erasor:general", "set": {"th_bin_max_h": {"sweep": [0, 0.3]}}}]}
 END
-flat="th_bin_max_h made no difference: with each of its 2 values exactly the same points were removed."
+flat="th_bin_max_h had no effect: with each of its 2 values exactly the same points were removed."
 expect 0 "$warning" run sweep.json --quiet --out sweep
 expect 0 "raymoval: warning: sweep of $general over th_bin_max_h: $flat" run sweep.json --quiet --out sweep
 expect 0 "$flat" table sweep

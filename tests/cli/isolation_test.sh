@@ -67,10 +67,10 @@ if command -v script >/dev/null; then
 fi
 
 # Children see data by the options that the run was given.
-expect 0 "All controls are as they must be" run --sequence street --frames 1:5:2 --range 3:40 \
+expect 0 "All controls have their expected scores" run --sequence street --frames 1:5:2 --range 3:40 \
   --name short --method comb --set comb.milliseconds=0.5 --keep-removals --quiet --out options
 holds "removals are kept" test -s options/cells/short/comb-default_/removals/000005.label
-expect 0 "All controls are as they must be" run --sequence street --frames 1:5:2 --range 3:40 \
+expect 0 "All controls have their expected scores" run --sequence street --frames 1:5:2 --range 3:40 \
   --name short --method comb --set comb.milliseconds=0.5 --keep-removals --quiet --in-process \
   --out inside
 holds "a process of its own changes no result" same_but_times options inside

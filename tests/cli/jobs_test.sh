@@ -21,7 +21,7 @@ holds "jobs change no result" same_but_times one three
 holds "cells say how they were timed" grep -q '"side_by_side": 3' three/cells/b/comb-default/cell.json
 holds "so do repeats" grep -q '"side_by_side": 3' three/cells/b/comb-default/timing-2.json
 holds "alone they say nothing" test "$(grep -rl side_by_side one | wc -l)" -eq 0
-holds "tables say it" grep -q "Up to 3 cells ran at once" three/table.md
+holds "tables say it" grep -q "Up to 3 cells ran in parallel" three/table.md
 holds "nothing that was started is left" test -z "$(left_over)"
 holds "no lock is left" test ! -e three/run.lock
 
@@ -52,7 +52,7 @@ wait $process
 holds "it ends with the signal's code" test $? -eq 143
 holds "no child is left" test -z "$(left_over)"
 holds "the controls are kept" test -s cut/cells/street/noop-default/cell.json
-expect 0 "All controls are as they must be" run "${slow[@]}" --quiet --jobs 2 --out cut
+expect 0 "All controls have their expected scores" run "${slow[@]}" --quiet --jobs 2 --out cut
 holds "it is whole" test "$(grep -c ',ok,' cut/results.csv)" -eq 5
 
 # What does not go together.
@@ -96,7 +96,7 @@ expect 0 "no regression" compare --speed slow.json kernels/speed.json --time-ban
 expect 2 "folders that scripts/benchmark.sh wrote" compare --speed . kernels
 expect 2 "raymoval:online is missing in the run" compare --speed other.json kernels
 echo '{' >torn.json
-expect 2 "this is no JSON" compare --speed same.json torn.json
-expect 2 "of the other options it goes with --time-band" compare --speed same.json kernels --tolerance F1=1
+expect 2 "this is not JSON" compare --speed same.json torn.json
+expect 2 "it can be combined with --time-band alone" compare --speed same.json kernels --tolerance F1=1
 expect 2 "nothing.json: no such file" compare --speed same.json nothing.json
 finish jobs

@@ -81,7 +81,7 @@ holds "a log says which lines of indices.csv were not read" \
 "$raymoval" inspect cut/bag.bag --quiet >found.txt 2>err.txt
 holds "inspect ends with 1" test $? -eq 1
 holds "inspect finds it" grep -q "^finding recording-damaged: $ends" found.txt
-expect 0 "recording-damaged: a recording is cut or damaged, or was never closed. (clean warns)" \
+expect 0 "recording-damaged: a recording is truncated or damaged, or was never closed. (clean warns)" \
   inspect --list
 holds "a whole recording is not damaged" \
   test -z "$("$raymoval" inspect recording/bag.bag --quiet | grep recording-damaged)"

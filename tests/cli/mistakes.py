@@ -161,7 +161,7 @@ BY_TIME = {**bins(), "s/times.txt": "1000\n1000.1\n1000.2\n"}
 # Reader, mistake, files, arguments, words of the message.
 MISTAKES = [
     ("bag", "only its first bytes were copied", {"a.bag": bag(clouds(), odometry())[:4000]}, ["a.bag"],
-     ["a.bag", "cut", "Copy it again"]),
+     ["a.bag", "truncated", "Copy it again"]),
     ("bag", "a web page under its name", {"a.bag": "<!DOCTYPE html>"}, ["a.bag"],
      ["a.bag", "does not begin as a recording", "Copy it again"]),
     ("bag", "no scans in it", {"a.bag": bag(imu())}, ["a.bag"],
@@ -176,10 +176,10 @@ MISTAKES = [
      ["there are no poses"]),
     ("mcap", "an empty file", {"a.mcap": ""}, ["a.mcap"], ["a.mcap", "does not begin", "Copy it again"]),
     ("mcap", "only its first bytes were copied", {"a.mcap": mcap_of(clouds(ros1=False, kind=CLOUD2))[:30]},
-     ["a.mcap"], ["a.mcap", "no message", "cut"]),
+     ["a.mcap"], ["a.mcap", "no message", "truncated"]),
     ("mcap", "packets of a driver", {"a.mcap": mcap_of(
         [("/packets", "velodyne_msgs/msg/VelodyneScan", t, bytes(99)) for t in STAMPS])}, ["a.mcap"],
-     ["no topic has scans", "velodyne_msgs/VelodyneScan", "replaying"]),
+     ["no topic has scans", "velodyne_msgs/VelodyneScan", "replay"]),
     ("mcap", "the frame of the points changes", {"a.mcap": mcap_of(
         framed(False, [b"velodyne", b"velodyne", b"velodxne"]), tf())}, ["a.mcap"],
      ["message 2", "'velodxne'", "'velodyne'", "Filter"]),
@@ -217,7 +217,7 @@ MISTAKES = [
     ("las", "LAZ under the name .las", scan("a.las", las(point_format=128 + 6)), ["s"],
      ["a.las", "LAZ", "laszip"]),
     ("las", "cut off", scan("a.las", las(points=5, body=bytes(60))), ["s"], ["a.las", "5", "truncated"]),
-    ("las", "no LAS file", scan("a.las", b"x,y,z\n1,2,3\n"), ["s"], ["a.las", "LASF"]),
+    ("las", "not a LAS file", scan("a.las", b"x,y,z\n1,2,3\n"), ["s"], ["a.las", "LASF"]),
     ("las", "an unknown format of points", scan("a.las", las(point_format=11)), ["s"],
      ["a.las", "11", "0 to 10"]),
     ("bin", "five numbers a point", scan("0.bin", bytes(20 * 3)), ["s"],
@@ -284,7 +284,7 @@ MISTAKES = [
      ["a.bag", "--poses", "p.txt", "--pose-topic", "/odom"], ["--pose-topic", "--poses"]),
     ("Livox", "a cut message", {"a.bag": bag([("/livox", "livox_ros_driver/CustomMsg", t,
                                                livox_message(t, POINTS)[:-20]) for t in STAMPS])},
-     ["a.bag", "--poses", "identity"], ["/livox", "message 0", "cut"]),
+     ["a.bag", "--poses", "identity"], ["/livox", "message 0", "truncated"]),
 ]
 
 

@@ -17,7 +17,7 @@ cat >suite.json <<'JSON'
   "threads": 1 }
 JSON
 run=(run suite.json --quiet --keep-removals)
-expect 0 "All controls are as they must be" "${run[@]}" --out whole
+expect 0 "All controls have their expected scores" "${run[@]}" --out whole
 
 # A folder that is moved away ends the run, which makes no second one in its place.
 "$raymoval" "${run[@]}" --set comb.milliseconds=300 --out moving >out.txt 2>err.txt &
@@ -30,7 +30,7 @@ cp err.txt said.txt
 holds "a run whose folder is moved ends with 2, not $code" test $code -eq 2
 holds "and says so" grep -q "moving: is no longer the folder of this run" said.txt
 holds "and makes no other folder" test ! -e moving
-expect 0 "All controls are as they must be" "${run[@]}" --set comb.milliseconds=300 --out moved
+expect 0 "All controls have their expected scores" "${run[@]}" --set comb.milliseconds=300 --out moved
 
 # Killed at any moment, started again and again.
 RANDOM=5
@@ -113,7 +113,7 @@ holds "only what was asked for is run" test "$(find some -name cell.json | wc -l
 expect 2 "Did you mean 'a/noop:default'" "${run[@]}" --only a/nop:default --out some
 for wrong in 0/3 4/3 1 a/b 1/2/3; do expect 2 "--shard" "${run[@]}" --shard $wrong --out o; done
 expect 2 "leave out" "${run[@]}" --collect --shard 1/2 --out o
-expect 2 "--cell goes without" "${run[@]}" --cell a/noop:default --explain --out o
+expect 2 "--cell cannot be combined with" "${run[@]}" --cell a/noop:default --explain --out o
 
 # Cell by cell, several at a time, as a scheduler does it.
 expect 0 '"cell":"a/noop:default"' plan suite.json --quiet

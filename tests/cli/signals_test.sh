@@ -67,7 +67,7 @@ for signal in INT TERM HUP; do
   wait_for_child
   kill -$signal $process
   ends $code "run after SIG$signal"
-  holds "it says how to go on" grep -q "the same command goes on" said.txt
+  holds "it says how to go on" grep -q "the same command runs the rest" said.txt
   nothing_left "run after SIG$signal"
   begin simulate town -o drive --quiet
   wait_for_name 'drive.*.part'

@@ -85,7 +85,7 @@ fi
 # A cleaner of caches takes some scans.
 expect 0 "" run --sequence $scene --quiet --method comb --out before
 rm cache/simulated/town-*/velodyne/00000[24].bin
-expect 0 "is missing); it is made again" run --sequence $scene --method comb --out after
+expect 0 "is missing); it is simulated again" run --sequence $scene --method comb --out after
 holds "the scores are the same" diff <(cut -d, -f1-15 before/results.csv) \
   <(cut -d, -f1-15 after/results.csv)
 
@@ -143,7 +143,7 @@ holds "12 are an error" test $code -eq 2
 
 # A copy that broke off may have any size.
 truncate -s 20G data/velodyne/000002.bin
-expect 2 "of which most were never written: it looks like a copy that broke off" \
+expect 2 "most of which were never written: the copy seems incomplete" \
   "${scores[@]}" --out sparse
 
 # Worlds and sensors are strict JSON.
@@ -153,7 +153,7 @@ JSON
 sed 's/"scans": 2/"scans": 1e309/' world.json >large.json
 expect 2 "large.json: holds a number that is too large" simulate large.json -o world
 sed 's/"scans": 2/"scans": 2, "scans": 3/' world.json >twice.json
-expect 2 'the key "scans" stands twice in one object' simulate twice.json -o world
+expect 2 'the key "scans" occurs twice in one object' simulate twice.json -o world
 echo '{ "kind": "spinning", "noise_m": 1e309 }' >sensor.json
 expect 2 "sensor.json: holds a number that is too large" simulate town --sensor sensor.json -o world
 finish trust

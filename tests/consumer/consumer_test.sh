@@ -52,7 +52,7 @@ holds "a program of its own runs and scores a method" consumers/library_use
 near=$work/consumers/near_points/near_points
 holds "the example is short" test "$(wc -l <"$source/examples/cpp_method/near_points.cpp")" -le 60
 holds "it is listed" grep -q '^near ' <("$near" list methods)
-holds "it is described" grep -q 'limit = 10 m .* own choice' <("$near" describe near)
+holds "it is described" grep -q 'limit = 10 m .* chosen here' <("$near" describe near)
 holds "help has its name" grep -qF 'near_points run --sequence' <("$near" help run)
 holds "and no other" test "$(for command in "" run clean table; do "$near" $command --help; done | grep -cE 'raymoval (run|clean|table)')" -eq 0
 holds "it runs beside others" "$near" run --sequence street --frames 0:4 --quiet --method near \

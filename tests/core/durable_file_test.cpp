@@ -202,13 +202,13 @@ TEST_CASE(
   }
   const Refusing names({.sync_folder = EIO});
   CHECK_THROWS_WITH(write_atomically(path, "other text"),
-                    Contains(folder.text() + ": the names in it cannot be put on the disk "
+                    Contains(folder.text() + ": it cannot be synchronised to the disk "
                                              "(Input/output error)"));
   CHECK(read_text(path) == "other text");  // It has its name already.
   CHECK_THROWS_AS(sync_folder(folder.path()), DataError);
   CHECK_THROWS_WITH(sync_folder(folder.path() / "none"),
-                    Contains("none: cannot be opened (No such file or directory), so that nothing "
-                             "can be put on the disk there."));
+                    Contains("none: cannot be opened (No such file or directory), so files in it "
+                             "cannot be synchronised to the disk."));
 }
 
 TEST_CASE(
@@ -235,7 +235,7 @@ TEST_CASE("A folder that cannot be made is told with the system's reason") {
   CHECK(make_folders(folder.path() / std::string(300, 'n')) == std::errc::filename_too_long);
   const Refusing names({.sync_folder = EIO});
   CHECK_THROWS_WITH(make_folders(folder.path() / "new"),
-                    Contains(folder.text() + ": the names in it cannot be put on the disk"));
+                    Contains(folder.text() + ": it cannot be synchronised to the disk"));
 }
 
 TEST_CASE("A file whose owner or group cannot be kept gives nobody more than before") {
@@ -277,7 +277,8 @@ TEST_CASE("A place where no file can be is told with the system's reason") {
   CHECK(writer.path() == folder.path() / "a.txt");
   writer.append("abc");
   writer.overwrite(0, "xyz");  // All of it, up to its end.
-  CHECK_THROWS_WITH(writer.overwrite(3, "!"), Contains("a.txt: overwrites what was not written"));
+  CHECK_THROWS_WITH(writer.overwrite(3, "!"),
+                    Contains("a.txt: overwrites bytes that were not written"));
   writer.commit();
   CHECK(read_text(folder.path() / "a.txt") == "xyz");
 }

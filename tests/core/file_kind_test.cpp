@@ -71,7 +71,7 @@ TEST_CASE("A link that leads nowhere is no absent file") {
   CHECK_THROWS_WITH(file_kind(link / "labels/000000.label"), Contains("is a link to"));
   CHECK_THROWS_WITH(file_kind(link.string() + "/"), Contains("is a link to"));
   fs::create_symlink("circle", folder.path() / "circle");
-  CHECK_THROWS_WITH(file_kind(folder.path() / "circle"), Contains("cannot be looked at"));
+  CHECK_THROWS_WITH(file_kind(folder.path() / "circle"), Contains("cannot be accessed"));
 }
 
 TEST_CASE("A folder without rights hides nothing as absent") {
@@ -80,7 +80,7 @@ TEST_CASE("A folder without rights hides nothing as absent") {
   const fs::path closed = folder.path() / "closed";
   fs::create_directory(closed);
   fs::permissions(closed, fs::perms::none);
-  CHECK_THROWS_WITH(file_kind(closed / "sequence.json"), Contains("cannot be looked at"));
+  CHECK_THROWS_WITH(file_kind(closed / "sequence.json"), Contains("cannot be accessed"));
   fs::permissions(closed, fs::perms::owner_all);
 }
 

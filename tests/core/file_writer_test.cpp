@@ -149,7 +149,7 @@ TEST_CASE("A link is replaced, unless its target is asked for") {
   CHECK_THROWS_WITH(check_output_file(folder.path() / "lost", true, "lost"),
                     Contains("is a link to nowhere"));
   std::filesystem::create_symlink("elsewhere", folder.path() / "folder");
-  CHECK_THROWS_WITH(output_target(folder.path() / "folder"), Contains("which is no file"));
+  CHECK_THROWS_WITH(output_target(folder.path() / "folder"), Contains("which is not a file"));
 }
 
 TEST_CASE("What is being made is told from what a dead process left") {

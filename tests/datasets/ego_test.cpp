@@ -85,7 +85,7 @@ TEST_CASE("points of the own vehicle are left out with their labels", "[ego]") {
   }
   const auto lines = left_out_lines(sequence);
   REQUIRE(lines.size() == 1);
-  CHECK_THAT(lines[0], Catch::Contains("of the own vehicle (in the box -2:0.6,-0.5:1,-1:1 m)"));
+  CHECK_THAT(lines[0], Catch::Contains("on the ego vehicle (in the box -2:0.6,-0.5:1,-1:1 m)"));
   CHECK(sequence.record().drop_ego.value().left_out == "-2:0.6,-0.5:1,-1:1");
   CHECK(fingerprint(sequence, 1) != fingerprint(sequence_of(drive, "0.01"), 1));
 }
@@ -123,7 +123,7 @@ TEST_CASE("where nothing goes along with the sensor nothing is left out", "[ego]
   drive.keep([](const Eigen::Vector3f& point) { return point.norm() > 2.7F; });
   const Sequence sequence = sequence_of(drive, "auto");
   CHECK(sequence.scans->load(5).points == drive.load(5).points);
-  CHECK_THAT(left_out_lines(sequence).at(0), Catch::Contains("nothing goes along"));
+  CHECK_THAT(left_out_lines(sequence).at(0), Catch::Contains("no points move with the sensor"));
 }
 
 TEST_CASE("the ground before a sensor that looks down is no vehicle", "[ego]") {
@@ -163,11 +163,12 @@ TEST_CASE("a sequence says what is left out of it", "[ego]") {
   CHECK(scan.stored_index == std::vector<std::uint32_t>{1, 2});
   CHECK(sequence.labels->labels(scan) == std::vector<std::uint32_t>{2, 3});
   CHECK(sequence.scans->sensor().range_min > 1.5);
-  CHECK(left_out_lines(sequence) ==
-        std::vector<std::string>{
-            "25.0 % of the stored points are no returns (NaN or at the origin) and are left out",
-            "25.0 % of the stored points are of the own vehicle (nearer than 1.5 m) and are left "
-            "out"});
+  CHECK(
+      left_out_lines(sequence) ==
+      std::vector<std::string>{
+          "25.0 % of the stored points are missing returns (NaN or at the origin) and are left out",
+          "25.0 % of the stored points are on the ego vehicle (nearer than 1.5 m) and are left "
+          "out"});
   SequenceOptions options;  // Options stand above the file.
   options.drop_ego = parse_ego_region("none");
   CHECK(open_sequence(folder.text(), options).scans->load(1).size() == 3);
@@ -185,7 +186,7 @@ TEST_CASE("the vehicle in view is a finding, or a note where its labels say so",
   INFO(text_of(noted));
   REQUIRE(noted.findings.size() == 1);
   CHECK(noted.findings[0].check == "ego-vehicle");
-  CHECK_THAT(noted.findings[0].what, Catch::Contains("their labels say so (0)"));
+  CHECK_THAT(noted.findings[0].what, Catch::Contains("they are labelled as such (0)"));
   CHECK_FALSE(noted.has_findings());
   many.labelled = false;
   check_finds(many.inspected(), "ego-vehicle", "--drop-ego auto, here the box");

@@ -143,7 +143,7 @@ TEST_CASE("numbered files are listed by number, and strange names are errors", "
   for (const std::string odd : {"0000x.bin", "-1.bin"}) {
     folder.write(odd, "x");
     check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".bin"); }),
-               {odd, "no frame number"});
+               {odd, "not a frame number"});
     std::filesystem::remove(folder / odd);
   }
   check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".pcd"); }),

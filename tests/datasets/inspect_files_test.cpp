@@ -162,7 +162,7 @@ TEST_CASE("a good folder of scans is silent, and labels where methods look are n
   }
   write_files(leaking, drive);
   check_finds(inspect_path(leaking.text(), {}), "labels-in-intensity-by-value",
-              "must not see the answer");
+              "must not get the labels");
 }
 
 TEST_CASE("a pose file with another count is named before anything is opened", "[inspect]") {

@@ -44,7 +44,7 @@ TEST_CASE("a recording that is cut is a finding, and scans without a pose are a 
   drive.losses = {"poses.txt: 3 of 19 scans have no pose: 3 after the last pose."};
   CHECK_FALSE(drive.inspected().has_findings());
   CHECK(drive.inspected().notes == drive.losses);
-  drive.damage = {"drive.bag: byte 77: a chunk is cut; 2 messages of it can be read.",
+  drive.damage = {"drive.bag: byte 77: a chunk is truncated; 2 messages of it can be read.",
                   "Further damage was found in 9 places, not listed here."};
   const InspectionReport report = drive.inspected();
   CHECK(report.notes == drive.losses);
@@ -52,7 +52,7 @@ TEST_CASE("a recording that is cut is a finding, and scans without a pose are a 
   REQUIRE(report.findings.size() >= 2);
   CHECK(report.findings[0].consequence == Consequence::kWarned);
   CHECK(report.findings[0].sentence().starts_with(
-      "recording-damaged: drive.bag: byte 77: a chunk is cut; 2 messages of it can be read; "
+      "recording-damaged: drive.bag: byte 77: a chunk is truncated; 2 messages of it can be read; "
       "expected a whole recording"));
   CHECK(report.findings[1].where == "the recording");
 }
@@ -178,7 +178,7 @@ TEST_CASE("points in camera axes are told by the ground", "[inspect][slow]") {
   points.each_point([&](const Scan&, const Eigen::Vector3d& p) { return C * p; });
   EditedSequence both = points;
   both.each_pose([&](const Pose& pose) { return C * pose * C.inverse(); });
-  check_finds(points.inspected(), "camera-frame", "Points of a camera frame");
+  check_finds(points.inspected(), "camera-frame", "Points in a camera frame");
   // They fit each other; only the field of view of the sensor that is named is another.
   CHECK(found(both.inspected()) == std::set<std::string>{"other-sensor"});
 }

@@ -85,7 +85,7 @@ TEST_CASE("DynamicMap intensity is a label only where a rule says so", "[dynamic
                  world_pcd("0 0 0 1 0 0 0", "1 2 3 0\n4 5 6 " + std::string(intensity) + "\n", 2));
     check_says(
         message_of<DataError>([&] { (void)sequence.labels->labels(sequence.scans->load(0)); }),
-        {"000007.pcd", "point 1", intensity, "no label"});
+        {"000007.pcd", "point 1", intensity, "not a label"});
   }
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("times of poses are dates, repeated, unsorted, nan, and followed by co
 
   const PoseFile unsorted = read(tum_row("3", 3) + tum_row("1", 1) + tum_row("2", 2));
   CHECK(xs_of(unsorted) == std::vector<double>{1, 2, 3});
-  check_says(unsorted.notes.at(0), {"1 row stood behind a later one", "sorted"});
+  check_says(unsorted.notes.at(0), {"1 row followed a later one", "sorted"});
 
   const PoseFile twice = read(tum_row("1", 1) + tum_row("2", 2) + tum_row("2", 2.1) +
                               tum_row("3", std::nan("")) + tum_row("4", 4));

@@ -98,5 +98,5 @@ TEST_CASE("data that does not say who moves when has no such rule", "[semanticki
   CHECK_THAT(message_of<UsageError>([&] { open_sequence(folder.text(), moving_now()); }),
              Contains("it has no labels"));
   CHECK_THAT(message_of<UsageError>([&] { open_sequence("street", moving_now()); }),
-             Contains("do not say who moves when"));
+             Contains("have no times of motion"));
 }

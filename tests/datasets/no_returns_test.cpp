@@ -50,7 +50,7 @@ TEST_CASE("no returns are left out at any share, and labels keep their places", 
   // Said once, however often the scan is read.
   (void)sequence.scans->load(0);
   CHECK(left_out_lines(sequence) ==
-        std::vector<std::string>{"66.7 % of the stored points are no returns (NaN or at the "
+        std::vector<std::string>{"66.7 % of the stored points are missing returns (NaN or at the "
                                  "origin) and are left out"});
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("a scan may be without a return, and infinite points are damage", "[no
   write_scan(infinite, {kInfinity, 0, 0, 0, 1, 0, 0, 0});
   const Sequence damaged = open_sequence(infinite.text(), {});
   check_says(message_of<DataError>([&] { (void)damaged.scans->load(0); }),
-             {"1 of 2 points are infinite", "write NaN"});
+             {"1 of 2 points are infinite", "as NaN"});
 }
 
 TEST_CASE("nothing is said where nothing is left out", "[no-returns]") {

@@ -84,7 +84,7 @@ TEST_CASE("small deviations from a rotation are removed", "[poses]") {
 TEST_CASE("what is no rotation is named with its line and deviation", "[poses]") {
   // diag(1.01, 1, 1): R^T R - I = diag(0.0201, 0, 0).
   check_says(pose_error(kIdentityRow + "1.01 0 0 0 0 1 0 0 0 0 1 0\n", 1),
-             {"poses.txt: line 2", "0.0201", "no rotation"});
+             {"poses.txt: line 2", "0.0201", "not a rotation"});
   // A mirror is orthogonal but turns a right hand into a left one.
   check_says(pose_error("1 0 0 0 0 1 0 0 0 0 -1 0\n"), {"line 1", "det R = -1"});
   check_says(pose_error("1 0 0 nan 0 1 0 0 0 0 1 0\n"), {"line 1", "not finite"});
@@ -118,7 +118,7 @@ TEST_CASE("a calibration row is found by its key", "[poses]") {
   check_says(error("P0: 1\nTr_velo: 2\n"), {"no row 'Tr:'", "P0, Tr_velo", "poses_are_lidar"});
   check_says(error("Tr: 1 2 3\n"), {"line 1", "3 numbers", "expected 12"});
   check_says(error("\nTr: 1 0 o 0\n"), {"line 2, column 9", "'o'"});
-  check_says(error("Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n"), {"line 1: Tr", "no rotation"});
+  check_says(error("Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n"), {"line 1: Tr", "not a rotation"});
 }
 
 TEST_CASE("a line of nothing but carriage returns is an empty line", "[poses]") {

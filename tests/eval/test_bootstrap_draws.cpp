@@ -117,7 +117,7 @@ TEST_CASE("four scans are enough for an interval, three and none are not", "[boo
   const Intervals three = of({1, 1, 1});
   CHECK_FALSE(three.rates.at(0).low);
   CHECK(three.rates.at(0).name == "sum");
-  CHECK(three.rates.at(0).undefined_reason == "fewer than 4 scans say nothing about others");
+  CHECK(three.rates.at(0).undefined_reason == "fewer than 4 scans are too few for an interval");
   CHECK(three.scans == 3);
   const Intervals none = of({});
   CHECK(none.rates.empty());

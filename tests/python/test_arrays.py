@@ -175,7 +175,7 @@ class Mistakes(unittest.TestCase):
         self.refused(raymoval.ConfigurationError, "tau0", method="raymoval", tau=0.3)
         self.refused(raymoval.ConfigurationError, "vlp16", sensor="vlp61")
         self.refused(raymoval.UsageError, "as attributes", distance=3.0)
-        self.refused(raymoval.UsageError, "is no direction", up="above")
+        self.refused(raymoval.UsageError, "is not a direction", up="above")
 
     def test_an_opened_sequence_has_its_own_poses(self):
         raised(self, raymoval.UsageError, "of its own", raymoval.clean, street(4)[0], self.poses)

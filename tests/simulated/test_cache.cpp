@@ -126,7 +126,7 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
     Log log;
     CHECK(cached_simulation(small_town(), scratch.text(), 2, log.progress()) == folder);
     CHECK_THAT(log.text(), Contains(problem));
-    CHECK_THAT(log.text(), Contains("it is made again"));
+    CHECK_THAT(log.text(), Contains("it is simulated again"));
     CHECK(content_of(folder) == whole);
     CHECK(entries_of(folder.parent_path()).size() == 1);  // Neither the old nor a lock is left.
   }

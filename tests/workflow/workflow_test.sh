@@ -26,7 +26,7 @@ cat >suite.json <<'JSON'
   "methods": ["comb", {"method": "comb2", "set": {"milliseconds": {"sweep": [0, 1]}}}],
   "threads": 1 }
 JSON
-expect 0 "All controls are as they must be" run suite.json --quiet --out plain
+expect 0 "All controls have their expected scores" run suite.json --quiet --out plain
 workflow suite.json flow
 holds "the workflow ends well" test $? -eq 0
 holds "each of the 12 cells was a job" test "$(cells_run)" -eq 12

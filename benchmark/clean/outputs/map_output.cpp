@@ -27,7 +27,7 @@ void IntensityCount::add(const PointRecords& rows) {
 }
 
 std::vector<std::string> IntensityCount::remarks(const std::string& option) const {
-  const std::string exact = "'" + shown_.exact + "' has them as they are.";
+  const std::string exact = "'" + shown_.exact + "' has the exact values.";
   std::vector<std::string> remarks;
   if (2 * faint_ > positive_) {
     remarks.push_back(option + ": " + grouped_text(faint_) + " of " + grouped_text(positive_) +
@@ -39,9 +39,8 @@ std::vector<std::string> IntensityCount::remarks(const std::string& option) cons
   if (too_large_ > 0) {
     remarks.push_back(option + ": " + counted_text(too_large_, "point") +
                       " with an intensity of more than 65,535" +
-                      (scale_ == 1.0 ? "" : " after --intensity-scale") +
-                      " will look as if it were 65,535; " + exact +
-                      " Choose a smaller --intensity-scale.");
+                      (scale_ == 1.0 ? "" : " after --intensity-scale") + " are shown as 65,535; " +
+                      exact + " Choose a smaller --intensity-scale.");
   }
   return remarks;
 }

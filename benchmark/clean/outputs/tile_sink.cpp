@@ -55,7 +55,7 @@ TileSink::Place TileSink::place_of(const Eigen::Vector3d& world) const {
   if (const auto place = tile_of(tiling_.T_upright_world * world, tiling_.size_m)) return *place;
   throw DataError(folder_.path().string() + ": a point lies at " + number_text(world.x()) + ", " +
                   number_text(world.y()) + ", " + number_text(world.z()) +
-                  " m, where there are no tiles. Nothing was written; look at the poses.");
+                  " m, beyond the last tile. Nothing was written; check the poses.");
 }
 
 void check_tile_count(const Sequence& sequence, double size_m,
@@ -88,10 +88,10 @@ std::filesystem::path TileSink::spool_of(const Place& place) const {
 TileSink::Tile& TileSink::tile_at(const Place& place) {
   const auto [found, is_new] = tiles_.try_emplace(place);
   if (is_new && tiles_.size() > kMostTiles) {
-    throw DataError(folder_.path().string() + ": the map has more than " +
-                    grouped_text(kMostTiles) + " tiles of " + number_text(tiling_.size_m) +
-                    " m. Nothing was written; choose larger --tiles, and look at the units of the "
-                    "poses.");
+    throw DataError(
+        folder_.path().string() + ": the map has more than " + grouped_text(kMostTiles) +
+        " tiles of " + number_text(tiling_.size_m) +
+        " m. Nothing was written; choose larger --tiles, and check the units of the poses.");
   }
   return found->second;
 }

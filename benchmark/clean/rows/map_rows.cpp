@@ -189,7 +189,7 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
     if (!difference.empty() || stored->size() != scan.stored_point_count) {
       throw DataError(sequence_.records->place(scan.index) +
                       ": has changed since it was first read. Nothing was written; start again "
-                      "when nobody writes there.");
+                      "when no program writes there.");
     }
     result.rows = copied_rows(scan, *stored, layout_);
     result.rows.las = las_notes(*stored);

@@ -79,7 +79,7 @@ ConfiguredMethod configured(const CleanFlags& flags) {
       if (!entry->confidence.empty()) names.push_back(entry->name);
     }
     throw UsageError("--confidence: " + method.entry->name +
-                     " does not tell how sure it is. Choose another --method (" + join(names) +
+                     " has no confidence. Choose another --method (" + join(names) +
                      "), or leave it out.");
   }
   return method;
@@ -120,7 +120,8 @@ void write_outputs(const ScanSource& scans, const MethodAnswer& answer, Cleaning
 }
 
 CleanPaths checked_paths(const CleanFlags& flags) {
-  if (flags.path.empty()) throw UsageError("clean what? Expected `raymoval clean PATH -o FILE`.");
+  if (flags.path.empty())
+    throw UsageError("PATH is missing: expected `raymoval clean PATH -o FILE`.");
   check_not_both(flags.path);
   CleanPaths paths;
   paths.tiled = !flags.tiles.empty();
@@ -169,7 +170,7 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
   check_apart_from(sequence, paths, flags.reading.files());
   if (method.entry->needs_truth && !sequence.labels) {
     throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
-                     " answers from them; choose another --method.");
+                     " needs them; choose another --method.");
   }
   return sequence;
 }
@@ -292,46 +293,45 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
               "The cleaned map in the world frame, with all fields of the scans: a file that ends "
               "in " +
                   join(written_extensions(), ", "));
-  options.add("--dynamic", "FILE", flags.dynamic, "Also write what was removed, as a map");
+  options.add("--dynamic", "FILE", flags.dynamic, "Also write the removed points as a map");
   options.add("--labelled", "FILE", flags.labelled,
               "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
   options.add_flag("--confidence", flags.confidence,
-                   "Give maps a field `confidence`: how sure the method is that a point moves, "
-                   "from 0 to 1");
+                   "Add a field `confidence` to maps: the estimated probability, from 0 to 1, that "
+                   "a point moves");
   options.add(
       "--labels", "DIR", flags.labels,
       "Also write a label file for each scan into this folder (251 = removed, 9 = kept, 0 = left "
       "out)");
-  options.add(
-      "--scans", "DIR", flags.scans,
-      "Also write the scans without the removed points, one by one, into a folder that opens "
-      "as the sequence does: in their own format, those of a recording as .pcd");
+  options.add("--scans", "DIR", flags.scans,
+              "Also write each scan without its removed points, into a folder that opens like the "
+              "sequence: in the format of the input, or as .pcd if that is a recording");
   options.add("--tiles", "METRES", flags.tiles,
               "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
               "folders");
   options.add("--tile-format", "FORMAT", flags.tile_format,
               "The format of the tiles, such as ply (default: pcd)");
-  options.add("--intensity-scale", "FACTOR", flags.intensity_scale,
-              "What a real intensity is multiplied by where LAS files show it as a whole number up "
-              "to 65535, such as 65535 for intensities from 0 to 1 (default: 1); the exact values "
-              "stand beside it");
+  options.add(
+      "--intensity-scale", "FACTOR", flags.intensity_scale,
+      "Factor for real intensities in LAS files, which show whole numbers up to 65535, such as "
+      "65535 for intensities from 0 to 1 (default: 1); the exact values are in another field");
   options.add("--html", "FILE", flags.page,
-              "Also write a page with a 3-D view of what was kept and removed (.html)");
+              "Also write a page with a 3-D view of kept and removed points (.html)");
   options.add("--picture", "FILE", flags.picture, "Also write the map from above (.png)");
   options.add("--voxel", "METRES", flags.voxel,
-              "Write one point for each cell of this size: the mean of its points and of their "
-              "intensity, with the other fields of the point nearest to the middle of the cell");
+              "Write one point per voxel of this size: the mean position and intensity, and the "
+              "other fields of the point nearest to the centre of the voxel");
 }
 
 /// The options for reading and cleaning the sequence.
 void add_clean_work(CommandOptions& options, CleanFlags& flags) {
   options.add("--method", "NAME", flags.method,
-              "The method (default: raymoval_plus:offline, which is the best)");
+              "The method (default: raymoval_plus:offline, the most accurate)");
   options.add("--set", "SETTING", flags.settings, "A parameter: METHOD.key=value");
   flags.reading.add_to(options);
   options.set_sentence("--range",
-                       "Distance from the sensor in metres. Points outside it are in no output, "
-                       "but the method sees them");
+                       "Written distance from the sensor in metres. Points outside it are in no "
+                       "output, but the method gets them");
   options.add_flag("--force", flags.force,
                    "Clean even if the data has mistakes that make the map wrong");
   flags.process.add_to(options);
@@ -350,17 +350,20 @@ Command add_clean_command(CommandParser& program) {
   options.set_footer(
       "Examples:\n"
       "  raymoval clean data/05 -o static.pcd\n"
-      "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 "
-      "--method raymoval:online\n"
+      "  raymoval clean data/05 -o static.ply --dynamic removed.ply --voxel 0.1 --method "
+      "raymoval:online\n"
       "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
       "  raymoval clean data/05 --scans cleaned --html map.html --picture map.png\n"
       "  raymoval clean data/05 -o tiles --tiles 100\n"
-      "The data is checked first, as `raymoval inspect` does. Mistakes that make the map wrong "
-      "are\nrefused (see `raymoval inspect --list`) unless --force is given. Points on the "
-      "sensor's vehicle (--drop-ego)\nand missing returns (NaN or at the origin) are in no output "
-      "and have label 0.\n"
-      "The memory does not grow with the number of scans. Without --voxel every point is kept. The "
-      "outputs\nappear when all is done; until then they are files *.part in the same folder.");
+      "The data is first checked as by `raymoval inspect`. Mistakes that make the map wrong are "
+      "refused\n"
+      "(see `raymoval inspect --list`) unless --force is given. Points on the ego vehicle "
+      "(--drop-ego)\n"
+      "and missing returns (NaN or at the origin) are in no output and have label 0.\n"
+      "Memory use does not grow with the number of scans. Without --voxel every point is kept. "
+      "Outputs\n"
+      "get their names when all are complete; until then they are files *.part in the same "
+      "folder.");
   return {options.name(), [flags] { return clean(*flags); }};
 }
 

@@ -100,13 +100,13 @@ ExitCode update(const CompareFlags& flags) {
   const std::filesystem::path file = reference_file(flags.reference);
   if (is_record_of_run(file)) {
     throw UsageError(file.string() +
-                     ": is a record of a run, which no reference replaces. Name another folder or "
-                     "file for the reference.");
+                     ": is a record of a run and cannot be replaced by a reference. Name another "
+                     "folder or file for the reference.");
   }
   write_reference(run, file, flags.with_times);
   print("wrote " + file.string() +
         (flags.with_times
-             ? " with its times. They tell something on this machine only.\n"
+             ? " with its times. They are valid on this machine only.\n"
              : " without times: --time-band cannot be used with it (--with-times keeps them).\n"));
   return ExitCode::kDone;
 }
@@ -141,7 +141,7 @@ std::filesystem::path speed_file(const std::string& given) {
 ExitCode compare_speeds(const CompareFlags& flags) {
   if (flags.update || flags.with_times || !flags.tolerances.empty() || !flags.across.empty() ||
       !flags.output.path.empty() || flags.format != "text") {
-    throw UsageError("--speed compares times only: of the other options it goes with --time-band.");
+    throw UsageError("--speed compares times only: it can be combined with --time-band alone.");
   }
   const double band = options_of(flags).time_band.value_or(kSpeedBand);
   const SpeedComparison comparison = compare_speed(read_speed(speed_file(flags.run)),
@@ -161,7 +161,7 @@ ExitCode compare(const CompareFlags& flags) {
     throw UsageError("two results are needed: expected `raymoval compare RUN REFERENCE`.");
   }
   if (flags.with_times && !flags.update && !flags.speed) {
-    throw UsageError("--with-times goes with --update: it keeps the times in the new reference.");
+    throw UsageError("--with-times needs --update: it keeps the times in the new reference.");
   }
   if (flags.speed) return compare_speeds(flags);
   if (flags.update) return update(flags);
@@ -213,22 +213,25 @@ void add_compare_options(CommandOptions& options, CompareFlags& flags) {
 
 Command add_compare_command(CommandParser& program) {
   auto flags = std::make_shared<CompareFlags>();
-  CommandOptions options = program.add_command("compare", "Says whether a run got worse");
+  CommandOptions options =
+      program.add_command("compare", "Compares a run with a reference, and fails if it got worse");
   add_compare_options(options, *flags);
   options.set_footer(
       "Counts must be equal. Runs with other data, protocols or parameters cannot be compared. "
       "With\n"
-      "--tolerance the rates that it names decide, in the protocols that have them. Each protocol\n"
-      "says which direction of a rate is better.\n"
-      "--across parameters is for a changed default: cells whose parameters differ are compared "
-      "by\n"
-      "their rates, none of which may get worse by more than its tolerance (or at all, if the\n"
-      "protocol has no rate with one). The output says what differs.\n"
+      "--tolerance the named rates decide, in the protocols that have them. Each protocol defines\n"
+      "which direction of a rate is better.\n"
+      "Use --across parameters after a change of defaults: cells whose parameters differ are "
+      "compared\n"
+      "by their rates. No rate may get worse by more than its tolerance (or at all, if no rate of "
+      "the\n"
+      "protocol has a tolerance). The output lists what differs.\n"
       "--format junit is XML for a CI server: a test suite for each sequence, and a test case for\n"
       "each method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
-      "Times of cells that ran at once (run --jobs) are only compared with those of as many at "
+      "Times of cells that ran in parallel (run --jobs) are compared only if equally many ran at "
       "once.\n"
-      "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\nExamples:\n"
+      "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\n"
+      "Examples:\n"
       "  raymoval run quick --out out/quick\n"
       "  raymoval compare out/quick results/reference/street\n"
       "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3\n"

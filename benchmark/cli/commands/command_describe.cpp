@@ -63,7 +63,7 @@ struct Description {
 
 /// The source of a default; "own choice" if the parameter has none.
 std::string source_text(const ParameterSpec& spec) {
-  return spec.notes.source.empty() ? "own choice" : spec.notes.source;
+  return spec.notes.source.empty() ? "chosen here" : spec.notes.source;
 }
 
 std::string range_text(const ParameterSpec& spec) {
@@ -281,7 +281,7 @@ bool is_also_protocol(const std::string& name) {
 
 ExitCode describe(const DescribeFlags& flags) {
   if (flags.name.empty()) {
-    throw UsageError("describe what? Name a method or a protocol (see `raymoval list`).");
+    throw UsageError("NAME is missing: name a method or a protocol (see `raymoval list`).");
   }
   if (flags.markdown && flags.json) throw UsageError("choose one of --markdown and --json.");
   const Description description = description_of(flags.name);

@@ -8,7 +8,7 @@ namespace raymoval {
 Command add_help_command(CommandParser& program) {
   auto command = std::make_shared<std::string>();
   CommandOptions options =
-      program.add_command("help", "Tells what a command does, as its --help does");
+      program.add_command("help", "Prints the help of a command, as its --help does");
   options.add("command", "COMMAND", *command, "A command; all of them if empty");
   options.set_footer("Examples:\n  raymoval help\n  raymoval help run");
   return {options.name(), [&program, command] {

@@ -75,7 +75,7 @@ const char* consequence_text(Consequence consequence) {
     case Consequence::kWarned:
       return " (clean warns)";
     case Consequence::kUnused:
-      return " (clean does not mind)";
+      return " (clean ignores it)";
   }
   throw InternalError("unknown consequence of a check");
 }
@@ -107,7 +107,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
     return ExitCode::kDone;
   }
   if (flags.path.empty()) {
-    throw UsageError("inspect what? Name a sequence folder, ROOT:05, or a scene.");
+    throw UsageError("PATH is missing: name a sequence folder, ROOT:05, or a scene.");
   }
   check_not_both(flags.path);
   const double limit = flags.process.memory_limit_mib();
@@ -130,16 +130,18 @@ Command add_inspect_command(CommandParser& program) {
   SequenceFlags::add_place_to(options, flags->path);
   flags->reading.add_to(options);
   options.add_flag("--json", flags->json, "Print the findings and the measured numbers as JSON");
-  options.add_flag("--list", flags->list, "List the checks, and what to do about what each finds");
+  options.add_flag("--list", flags->list, "List the checks, and the remedy for each finding");
   flags->process.add_to(options);
   flags->work.add_to(options);
   options.set_footer(
-      "Each finding is one line: what is wrong, where, what was expected, and what to do. Then "
-      "follows\n"
-      "the sensor, by its name and by the scans, and the distance by which the poses do not fit.\n"
-      "About thirty scans are read, two more every few metres for the poses, and the poses, times\n"
-      "and sizes of all.\n"
-      "Exit codes: 0 nothing found, 1 findings, 2 cannot be read as asked.\n"
+      "Each finding is one line: the mistake, its place, what was expected, and the remedy. Then "
+      "follow\n"
+      "the named and the estimated sensor, and how far apart the poses leave surfaces of "
+      "overlapping scans.\n"
+      "About thirty scans are read, two more every few metres to check the poses, and the poses, "
+      "times\n"
+      "and sizes of all scans.\n"
+      "Exit codes: 0 nothing found, 1 findings, 2 unreadable data or wrong usage.\n"
       "Examples:\n"
       "  raymoval inspect data/05\n"
       "  raymoval inspect KITTI:kitti-05 --json\n"

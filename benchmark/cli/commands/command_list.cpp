@@ -30,7 +30,7 @@ Lines method_lines(bool variants) {
     }
   }
   lines.emplace_back("external:MANIFEST",
-                     "A program of yours in any language, see docs/your-method.md.");
+                     "Your own program in any language, see docs/your-method.md.");
   return lines;
 }
 
@@ -50,7 +50,7 @@ Lines lines_of(const List& list, Sentence sentence) {
 
 Lines sensor_lines() {
   Lines lines = lines_of(sensor_model_names(), [](const std::string&) { return ""; });
-  lines.emplace_back("estimated", "field of view and steps as seen in the scans");
+  lines.emplace_back("estimated", "field of view and angular steps estimated from the scans");
   return lines;
 }
 

@@ -50,14 +50,15 @@ void check_options(const PictureFlags& flags) {
                {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time", "sweep"}}};
   for (const auto& rule : rules) {
     if (!rule.given || is_among(rule.kinds, flags.kind)) continue;
-    throw UsageError(std::string(rule.option) + " goes with --kind " + join(rule.kinds, " or ") +
+    throw UsageError(std::string(rule.option) + " needs --kind " + join(rule.kinds, " or ") +
                      ", not with " + flags.kind + "." +
                      (flags.kind == "map" ? " Choose cells with --only." : ""));
   }
 }
 
 void check_flags(const PictureFlags& flags) {
-  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval picture RUN -o FILE`.");
+  if (flags.run.empty())
+    throw UsageError("RUN is missing: expected `raymoval picture RUN -o FILE`.");
   if (!is_among(kinds(), flags.kind)) {
     throw UsageError("--kind " + flags.kind + " is unknown." + suggestion(flags.kind, kinds()));
   }
@@ -178,8 +179,8 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
       "--only", "PATTERN", flags.only,
       "map: only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?); "
       "default: all but the controls");
-  options.add("--sequence", "NAME", flags.sequence, "overview: which sequence");
-  options.add("--method", "NAME", flags.method, "overview: which method");
+  options.add("--sequence", "NAME", flags.sequence, "overview: the sequence");
+  options.add("--method", "NAME", flags.method, "overview: the method");
   options.add("--crop", "WINDOW", flags.crop,
               "map, overview: XMIN:XMAX:YMIN:YMAX in metres of the world frame (default: the "
               "sensor's path and 30 m around it)");
@@ -189,13 +190,12 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
               "map, overview: the longer side of a panel in pixels");
   options.add("--protocol", "NAME", flags.protocol,
               "pr-rr, accuracy-time, sweep: the protocol that is shown");
-  options.add(
-      "--data", "PATH", flags.data,
-      "Where the sequences are, if they are no longer where the run found them: the folder of a "
-      "sequence, or a folder that holds them by name");
-  options.add_flag("--simulate", flags.simulate,
-                   "map, overview: make scenes of the run that are not in the cache; they "
-                   "may be large");
+  options.add("--data", "PATH", flags.data,
+              "Folder of the data, if it was moved since the run: that of the sequence, or one "
+              "with all sequences by name");
+  options.add_flag(
+      "--simulate", flags.simulate,
+      "map, overview: simulate scenes of the run that are not in the cache; they may be large");
   flags.work.add_to(options);
 }
 
@@ -203,16 +203,18 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
 
 Command add_picture_command(CommandParser& program) {
   auto flags = std::make_shared<PictureFlags>();
-  CommandOptions options = program.add_command("picture", "Draws a run: maps and charts");
+  CommandOptions options = program.add_command("picture", "Draws maps and charts of a run");
   add_options(options, *flags);
   options.set_footer(
-      "Pictures of points need a run with --keep-removals, and its data where the run found it. "
-      "They show\nthe points that are evaluated. If a pixel of a map has at least one moving point "
-      "for "
-      "ten static ones,\nit shows what became of most of its moving points, else of most of its "
-      "static ones.\nCharts need only the run folder.\nExamples:\n"
-      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
-      "--keep-removals --out out/05\n"
+      "Maps and overviews need a run with --keep-removals, and its data. They show the evaluated "
+      "points.\n"
+      "A pixel of a map with at least one moving point per ten static points shows the verdict on "
+      "most of\n"
+      "its moving points, another pixel that on most of its static points. Charts need only the "
+      "run folder.\n"
+      "Examples:\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline --keep-removals "
+      "--out out/05\n"
       "  raymoval picture out/05 -o maps.png\n"
       "  raymoval picture out/05 -o map.png --only '05/raymoval*' --size 800\n"
       "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"

@@ -58,15 +58,16 @@ Command add_plan_command(CommandParser& program) {
   flags->what.add_to(options);
   options.group("Other options");
   options.add("--out", "DIR", flags->out,
-              "The run folder: also say which cells have to be run, and why. A folder that a run "
-              "would refuse is refused here, too");
+              "The run folder: also list which cells have to run, and why. Fails if `raymoval run` "
+              "would refuse the folder");
   options.add_flag("--quiet", flags->quiet, "Show no progress");
   options.set_footer(
-      "Each cell may be run on a machine of its own: raymoval run SUITE --out DIR --cell KEY.\n"
+      "Each cell can run on another machine: raymoval run SUITE --out DIR --cell KEY.\n"
       "Then raymoval run SUITE --out DIR --collect makes the tables.\n"
       "A key depends on all of the data. Scenes that are not in the cache are therefore simulated "
-      "first,\ninto $RAYMOVAL_CACHE, else ~/.cache/raymoval: some 100 MB for each, and several GB "
-      "for a large suite.\n"
+      "first,\n"
+      "into $RAYMOVAL_CACHE, else ~/.cache/raymoval: about 100 MB each, and several GB for a large "
+      "suite.\n"
       "Examples:\n"
       "  raymoval plan simulated-quick\n"
       "  raymoval plan suite.json --out out/suite");

@@ -55,7 +55,7 @@ std::string size_text(std::size_t bytes) {
 }
 
 ExitCode report(const ReportFlags& flags) {
-  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval report RUN`.");
+  if (flags.run.empty()) throw UsageError("RUN is missing: expected `raymoval report RUN`.");
   if (!flags.output.path.empty()) {
     const std::string extension = std::filesystem::path(flags.output.path).extension().string();
     if (extension != ".html" && extension != ".htm") {
@@ -106,22 +106,23 @@ ExitCode report(const ReportFlags& flags) {
 
 Command add_report_command(CommandParser& program) {
   auto flags = std::make_shared<ReportFlags>();
-  CommandOptions options = program.add_command("report", "Writes a run as a page with a 3-D view");
+  CommandOptions options =
+      program.add_command("report", "Writes a report of a run: one HTML page with a 3-D view");
   options.add("run", "RUN", flags->run, "The run folder");
   flags->output.add_to(options, "-o,--output",
                        "The page to write (default: RUN/report.html, which is replaced)");
-  options.add("--against", "RUN", flags->against, "Another run: show what changed since it");
-  options.add("--data", "PATH", flags->data,
-              "Where the sequences are, if they are not where the run read them");
+  options.add("--against", "RUN", flags->against, "Another run: also show the differences from it");
+  options.add("--data", "PATH", flags->data, "Folder of the data, if it was moved since the run");
   options.add("--points", "N", flags->points,
               "Put at most N points into the page (default: 1000000)");
   options.add_flag("--simulate", flags->simulate,
-                   "Make scenes of the run that are not in the cache; they may be large");
+                   "Simulate scenes of the run that are not in the cache; they may be large");
   options.add_flag("--no-points", flags->no_points, "Leave the 3-D view out");
   flags->work.add_to(options);
   options.set_footer(
-      "The page is one file: it needs no network, opens from disk, and can be handed around. Its\n"
-      "3-D view shows the points of each cell that was run with --keep-removals.\n"
+      "The page is one file that opens from disk and needs no network. Its 3-D view shows the "
+      "points of\n"
+      "each cell that was run with --keep-removals.\n"
       "Examples:\n"
       "  raymoval run --sequence town --method raymoval --keep-removals --out out/town\n"
       "  raymoval report out/town\n"

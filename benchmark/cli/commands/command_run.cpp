@@ -36,7 +36,7 @@ void tell_problems(const RunSummary& summary, bool collect) {
     for (const std::string& line : *lines) print_warning(line);
   }
   for (const std::string& problem : summary.controls) {
-    print_error(red("raymoval: controls are off:") + " " + problem);
+    print_error(red("raymoval: controls have wrong scores:") + " " + problem);
   }
   if (collect && !summary.missing.empty()) {
     print_error("raymoval: cells are missing: " + join(summary.missing));
@@ -51,12 +51,12 @@ int parse_jobs(const std::string& text) {
 /// @throws UsageError if --out is missing, or for options that exclude each other
 void check_flags(const RunFlags& flags) {
   if (flags.out.empty()) {
-    throw UsageError("--out DIR is missing: name the folder that is to hold the results.");
+    throw UsageError("--out DIR is missing: name the folder for the results.");
   }
   const bool collect = flags.options.collect;
   const bool selects = !flags.options.selection.only.empty() || !flags.shard.empty();
   if (!flags.cell.empty() && (selects || collect || flags.explain)) {
-    throw UsageError("--cell goes without --only, --shard, --collect and --explain.");
+    throw UsageError("--cell cannot be combined with --only, --shard, --collect and --explain.");
   }
   if (parse_jobs(flags.jobs) > 1 && flags.in_process) {
     throw UsageError("--jobs runs each method in a process of its own: leave --in-process out.");
@@ -98,8 +98,7 @@ std::optional<RunSummary> run_asked(const RunFlags& flags, const Suite& suite,
                               : run_one_cell(suite, options, flags.cell);
   } catch (const Cancelled&) {
     options.progress->end();
-    print_error(
-        "raymoval: cancelled. Finished cells are kept; the same command goes on with the rest.");
+    print_error("raymoval: cancelled. Finished cells are kept; the same command runs the rest.");
     return std::nullopt;
   } catch (...) {
     options.progress->end();
@@ -116,8 +115,8 @@ std::string end_of_run(const std::string& out) {
 ExitCode run(const RunFlags& flags) {
   if (flags.what.suite.empty() && flags.what.sequences.empty()) {
     throw UsageError(
-        "run what? Expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence PATH "
-        "--method NAME --out DIR`.");
+        "SUITE is missing: expected `raymoval run SUITE --out DIR`, or `raymoval run --sequence "
+        "PATH --method NAME --out DIR`.");
   }
   const Suite suite = flags.what.resolved();
   check_flags(flags);
@@ -152,28 +151,27 @@ void add_cell_options(CommandOptions& options, RunFlags& flags) {
       "--cell", "CELL", flags.cell,
       "Run one cell, given by its key (see `raymoval plan`) or as SEQUENCE/NAME; make no tables");
   options.add_flag("--collect", flags.options.collect,
-                   "Run nothing; make the tables of the cells that are there");
-  options.add_flag(
-      "--explain", flags.explain,
-      "Run no method; say which cells would be run, and why. Scenes that are not in the "
-      "cache are simulated for it");
+                   "Run nothing; make the tables of the finished cells");
+  options.add_flag("--explain", flags.explain,
+                   "Run no method; list the cells that would run, and why. Scenes that are not in "
+                   "the cache are simulated first");
 }
 
 void add_options(CommandOptions& options, RunFlags& flags) {
   flags.what.add_to(options);
   options.add("--jobs", "N", flags.jobs,
-              "Run N cells at once, each with one thread, to be done sooner (default: 1). Their "
-              "times are marked, since each is slower than alone");
+              "Run N cells in parallel, each with one thread (default: 1). Their times are marked, "
+              "since each cell is slower than alone");
   add_cell_options(options, flags);
   options.group("Result options");
   options.add("--out", "DIR", flags.out, "The folder for the results");
   options.add_flag("--keep-removals", flags.options.keep_removals,
-                   "Keep what each method removed from each scan");
+                   "Store which points each method removed from each scan");
   options.add_flag("--confidence", flags.options.confidence,
-                   "Ask the methods that can tell how sure they are of each point, and count what "
-                   "comes true (see `raymoval describe METHOD`)");
+                   "Also store and score the confidence of each point, for methods that have one "
+                   "(see `raymoval describe METHOD`)");
   options.add_flag("--overwrite", flags.options.overwrite,
-                   "Replace the folder's results if they are of another suite or on other data");
+                   "Replace results in the folder that are of another suite or other data");
   options.group("Other options");
   options.add_flag("--in-process", flags.in_process,
                    "Run methods in this process, for a debugger; a crash then ends the whole run");
@@ -187,31 +185,41 @@ Command add_run_command(CommandParser& program) {
   CommandOptions options = program.add_command("run", "Runs methods on sequences and scores them");
   add_options(options, *flags);
   options.set_footer(
-      "The controls noop, remove-all and oracle are added and checked. Each method runs in a "
-      "process of\nits own: one that crashes or exceeds a limit is a failed cell, and the rest "
-      "goes on. So is one whose data or program changes during the run. The folder\nof --out is "
-      "marked with .raymoval-run; nothing in it is deleted but a run's own files.\n\n"
-      "With --jobs N cells run at once, each with one thread and, unless --memory-limit says "
-      "otherwise,\nan Nth of the memory. All results are the same but times. cell.json and "
-      "run.json "
-      "say that N ran at once,\nand `raymoval compare` does not judge such times against others. "
-      "To measure time, leave --jobs out.\n\n"
-      "The results in one folder belong together. Cells that are there already are kept, and new "
-      "methods\nor sequences are added to the tables. If a method has other parameters or another "
-      "version than\nbefore, the cells asked for are run again, and its other cells are left out "
-      "of the tables, which is\nsaid; cells of methods that this run does not have stay as they "
-      "are. A run is refused if its suite\nhas another name than that of the folder, if it scores "
-      "by other protocols or options, or if a\nsequence of the same name has other data (frames, "
-      "poses, sensor, range, labels, scans). With\n--overwrite such a run replaces the tables: "
-      "they have the cells of this run only.\n"
+      "The controls noop, remove-all and oracle are added and checked. Each method runs in its "
+      "own\n"
+      "process. If it crashes or exceeds a limit, or if its data or program changes during the "
+      "run, the\n"
+      "cell fails and the run continues. The --out folder is marked with .raymoval-run; only files "
+      "of the\n"
+      "run itself are ever deleted in it.\n"
+      "\n"
+      "With --jobs N, N cells run in parallel, each with one thread and, without --memory-limit, "
+      "an Nth\n"
+      "of the memory. Only times change. cell.json and run.json record N, and `raymoval compare` "
+      "does not\n"
+      "compare such times with others. To measure times, leave --jobs out.\n"
+      "\n"
+      "A folder holds the results of one suite. Finished cells are kept, and new methods or "
+      "sequences are\n"
+      "added to the tables. If the parameters or the version of a method changed, the selected "
+      "cells run\n"
+      "again, and its other cells are left out of the tables, with a message; cells of methods "
+      "that are\n"
+      "not in this run stay. A run is refused if its suite has another name than that of the "
+      "folder, if\n"
+      "it scores by other protocols or options, or if a sequence of the same name has other data "
+      "(frames,\n"
+      "poses, sensor, range, labels, scans). With --overwrite such a run replaces the tables: they "
+      "then\n"
+      "have the cells of this run only.\n"
       "Examples:\n"
       "  raymoval run --sequence street --method raymoval:online --keep-removals --out out/street\n"
-      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline "
-      "--keep-removals --out out/05\n"
+      "  raymoval run --sequence data/05 --frames 0:100 --method raymoval:offline --keep-removals "
+      "--out out/05\n"
       "  raymoval run --sequence data/05 --method raymoval --set raymoval.voxel_size=0.1 --out "
       "out/fine\n"
-      "  raymoval run --sequence street --method raymoval --protocol dynamicmap "
-      "--set protocol:dynamicmap.maximum_range=50 --out out/near\n"
+      "  raymoval run --sequence street --method raymoval --protocol dynamicmap --set "
+      "protocol:dynamicmap.maximum_range=50 --out out/near\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method raymoval:online --out out/town\n"
       "  raymoval run --sequence town:scans=60,seed=3 --method octomap --out out/town  # is added\n"
       "  raymoval run data/05 --method all --method octomap:all --out out/all\n"

@@ -132,9 +132,10 @@ std::string above_oracle_text(const ProtocolResult& result, const ProtocolResult
   }
   if (above.empty()) return "";
   return "  " + join(above) +
-         " above the oracle's: that is no upper limit. The oracle keeps every static point; where "
-         "one stands\n  beside a moving one, that one counts as kept, and thinning puts means "
-         "where no point was.\n";
+         " above the oracle's, which is not an upper limit. The oracle keeps every static point: a "
+         "moving\n"
+         "  point beside a static one counts as kept, and thinning puts means where no point "
+         "was.\n";
 }
 
 std::string score_text(const ScoreRecord& record) {
@@ -244,16 +245,16 @@ void check_is_of_maps(SequenceFlags reading) {
   for (const char* option : {"label-rule", "name"}) reading.texts[option].clear();
   const std::string given = reading.first_given();
   if (given.empty()) return;
-  throw UsageError(given + " is about scans, and --truth-map has none. Leave it out.");
+  throw UsageError(given + " needs scans, and --truth-map has none. Leave it out.");
 }
 
 void check_flags(const ScoreFlags& flags) {
   if (flags.sequence.empty() && flags.truth_map.empty())
-    throw UsageError("score what? Expected `raymoval score PATH --predictions DIR`.");
+    throw UsageError("PATH is missing: expected `raymoval score PATH --predictions DIR`.");
   if (!flags.truth_map.empty() && (!flags.sequence.empty() || flags.cloud.empty())) {
     throw UsageError(
-        "--truth-map FILE takes the place of a sequence and goes with --cloud FILE: `raymoval "
-        "score --truth-map FILE --cloud FILE`.");
+        "--truth-map FILE replaces the sequence and needs --cloud FILE: `raymoval score "
+        "--truth-map FILE --cloud FILE`.");
   }
   if (!flags.sequence.empty()) check_not_both(flags.sequence);
   if (!flags.truth_map.empty()) check_is_of_maps(flags.reading);
@@ -267,7 +268,7 @@ void check_flags(const ScoreFlags& flags) {
   }
   flags.json.check();
   if (flags.cloud.empty() && !flags.voxel.empty()) {
-    throw UsageError("--voxel goes with --cloud: it says how the cloud was thinned.");
+    throw UsageError("--voxel needs --cloud: it is the voxel size to which the cloud was thinned.");
   }
 }
 
@@ -359,16 +360,18 @@ Command add_score_command(CommandParser& program) {
   flags->json.add_to(options, "--json", "Write counts and rates to this file");
   flags->work.add_to(options);
   options.set_footer(
-      "A cloud has no labels: they are found again by nearest neighbour, which keeps even a "
-      "perfect\ncleaner below 100. What the oracle's cloud scores in the same way is shown beside "
-      "it. That is a\nyardstick and no upper limit: a method that also removes static points "
-      "beside moving ones\ncan have a higher RR or DA.\nExamples:\n"
+      "A cloud has no labels. They are assigned by nearest neighbour, so even a perfect map scores "
+      "below\n"
+      "100. The score of the oracle's cloud is shown for comparison. It is not an upper limit: a "
+      "method\n"
+      "that also removes static points beside moving ones can have a higher RR or DA.\n"
+      "Examples:\n"
       "  raymoval score --sequence data/05 --predictions out/labels\n"
       "  raymoval score --sequence data/05 --cloud static.pcd --voxel 0.1 --protocol erasor "
       "--protocol dynamicmap\n"
       "  raymoval score --truth-map gt_cloud.pcd --cloud static.pcd --protocol dynamicmap\n"
-      "  raymoval score data/05 --predictions out/labels --protocol dynamicmap "
-      "--set protocol:dynamicmap.distance=0.1\n"
+      "  raymoval score data/05 --predictions out/labels --protocol dynamicmap --set "
+      "protocol:dynamicmap.distance=0.1\n"
       "  raymoval score --sequence street --predictions "
       "out/street/cells/street/raymoval-online/removals --json score.json");
   return {options.name(), [flags] { return score(*flags); }};

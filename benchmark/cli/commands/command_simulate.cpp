@@ -56,7 +56,7 @@ std::string content_text(const std::string& folder) {
 
 ExitCode simulate(const SimulateFlags& flags) {
   if (flags.scene.empty()) {
-    throw UsageError("simulate what? Expected `raymoval simulate SCENE -o DIR`; scenes are " +
+    throw UsageError("SCENE is missing: expected `raymoval simulate SCENE -o DIR`; scenes are " +
                      join(simulated_scene_names()) + ".");
   }
   if (flags.output.empty()) throw UsageError("-o DIR is missing: name the sequence's folder.");
@@ -82,13 +82,13 @@ Command add_simulate_command(CommandParser& program) {
               "A scene (see `raymoval list scenes`) or a scene file, *.json");
   options.add("-o,--output", "DIR", flags->output, "The new folder, in SemanticKITTI layout");
   options.add("--seed", "N", flags->seed, "The seed of movers, noise and poses (default: 1)");
-  options.add("--scans", "N", flags->scans, "The number of scans (default: what the scene says)");
+  options.add("--scans", "N", flags->scans, "The number of scans (default: as in the scene)");
   options.add("--sensor", "NAME", flags->sensor,
               "A sensor (see `raymoval list simulated-sensors`) or a sensor file");
   options.add_flag("--perfect-poses", flags->perfect_poses,
                    "Write poses without error, as with --pose-noise 0");
   options.add("--pose-noise", "FACTOR", flags->pose_noise,
-              "How large the error of the poses is; 1 (default) is that of a good odometry");
+              "Scale of the error of the poses; 1 (default) is a good odometry");
   options.add("--rolling", "KIND", flags->rolling,
               "skewed or corrected: a scan is taken while the sensor moves (default: none)");
   flags->work.add_to(options);
@@ -96,7 +96,8 @@ Command add_simulate_command(CommandParser& program) {
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
       "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
-      "A scene in it that does not fit its manifest.json is made again.\nExamples:\n"
+      "A cached scene that does not match its manifest.json is simulated again.\n"
+      "Examples:\n"
       "  raymoval simulate town -o data/town\n"
       "  raymoval simulate crossing -o data/crossing --scans 60 --sensor vlp16 --seed 3\n"
       "  raymoval simulate highway -o data/skewed --rolling skewed --perfect-poses");

@@ -34,7 +34,7 @@ void check_word(const std::string& option, const std::string& word,
 }
 
 void check_flags(const TableFlags& flags) {
-  if (flags.run.empty()) throw UsageError("which run? Expected `raymoval table RUN`.");
+  if (flags.run.empty()) throw UsageError("RUN is missing: expected `raymoval table RUN`.");
   check_word("--format", flags.format, {"md", "csv", "tex", "json"});
   check_word("--layout", flags.layout, {"methods", "paper"});
   const struct {
@@ -46,15 +46,15 @@ void check_flags(const TableFlags& flags) {
                {"--names", !flags.names.empty()},          {"--what", !flags.what.empty()}};
   for (const auto& look : looks) {
     if (look.given && !is_text(flags)) {
-      throw UsageError(std::string(look.option) + " goes with --format md or tex.");
+      throw UsageError(std::string(look.option) + " needs --format md or tex.");
     }
   }
   if (flags.columns && (flags.with_published || !flags.what.empty())) {
-    throw UsageError("--columns goes without --with-published and --what.");
+    throw UsageError("--columns cannot be combined with --with-published and --what.");
   }
   if (flags.format == "json" &&
       !(flags.protocols.empty() && flags.only.empty() && flags.sort.empty())) {
-    throw UsageError("--protocol, --only and --sort go with --format md, csv or tex.");
+    throw UsageError("--protocol, --only and --sort need --format md, csv or tex.");
   }
 }
 
@@ -64,7 +64,7 @@ std::vector<OutsideColumn> papers_beside(const RunResults& results) {
   std::vector<OutsideColumn> papers = published_columns();
   const std::vector<std::string> reasons = set_beside(papers, results);
   if (reasons.size() == results.sequences.size()) {
-    throw UsageError("--with-published: papers' rows stand beside the same frames only. " +
+    throw UsageError("--with-published: published rows are shown for the same frames only. " +
                      join(reasons, ". ") +
                      ". Leave the option out, or run the suite `semantickitti` or `kth`, which "
                      "have the papers' frames.");
@@ -109,9 +109,8 @@ std::string tables_text(const TableFlags& flags, RunResults& results) {
   std::vector<TextTable> tables =
       flags.columns ? full_column_tables(results) : make_tables(results, options);
   if (tables.empty() && !flags.what.empty()) {
-    throw UsageError(
-        "--what " + join(flags.what, ",") +
-        ": this run has no such table. `--what published` goes with --with-published.");
+    throw UsageError("--what " + join(flags.what, ",") +
+                     ": this run has no such table. `--what published` needs --with-published.");
   }
   if (flags.columns) {
     for (TextTable& table : tables) add_change_notes(results, table);
@@ -142,14 +141,13 @@ void add_look_options(CommandOptions& options, TableFlags& flags) {
               "Show only these rates, in this order, such as PR,RR,F1; ms is the time per scan "
               "(default: the main rates)");
   options.add("--decimals", "N", flags.decimals,
-              "How many digits stand behind the point: 2, or for one rate, such as F1=3");
-  options.add("--names", "NAMES", flags.names,
-              "The name of a method or sequence in the tables: 'NAME=SHOWN', or a file with "
-              "such lines");
+              "Number of decimals: 2, or for one rate, such as F1=3");
   options.add(
-      "--sort", "COLUMN", flags.sort,
-      "Put the best first in every table by this rate, by ms or by MiB, or sort by name, or "
-      "none (default): as in the run");
+      "--names", "NAMES", flags.names,
+      "The displayed name of a method or sequence: 'NAME=SHOWN', or a file with such lines");
+  options.add("--sort", "COLUMN", flags.sort,
+              "Sort every table by this rate, by ms or by MiB, best first, or by name; none "
+              "(default): order of the run");
   options.add_flag(
       "--disagreements", flags.disagreements,
       "Also show the ranks on each sequence, and the pairs of methods that protocols rank "
@@ -175,7 +173,7 @@ Command add_table_command(CommandParser& program) {
       "--columns", flags->columns,
       "Show points by class, range and height, and intervals, in place of the usual tables");
   options.add_flag("--with-published", flags->with_published,
-                   "Show the papers' rows beside those of the same frames of the same sequence");
+                   "Also show published rows for the same frames of the same sequence");
   options.set_footer(
       "Examples:\n"
       "  raymoval table out/street\n"

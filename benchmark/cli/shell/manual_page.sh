@@ -27,7 +27,7 @@ page() {
 
 echo ".TH RAYMOVAL 1 \"\" \"$("$program" --version)\" \"User Commands\""
 echo '.SH NAME'
-echo 'raymoval \- evaluates the removal of moving objects from LiDAR maps'
+echo 'raymoval \- removes moving objects from LiDAR maps, and compares methods'
 echo '.SH DESCRIPTION'
 page
 echo '.SH COMMANDS'

@@ -60,7 +60,7 @@ cairo_font_face_t* load_font(const std::string& file) {
   if ((library == nullptr && FT_Init_FreeType(&library) != 0) ||
       FT_New_Face(library, file.c_str(), 0, &face) != 0) {
     throw ConfigurationError(
-        fmt::format("{}: is no font that can be read; expected a TrueType file.", file));
+        fmt::format("{}: cannot be read as a font; expected a TrueType file.", file));
   }
   return cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_TARGET_LIGHT);
 }
@@ -189,7 +189,7 @@ std::string Canvas::png_bytes() const {
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS) {
     throw InternalError(
-        fmt::format("a picture cannot be coded: {}", cairo_status_to_string(status)));
+        fmt::format("a picture cannot be encoded: {}", cairo_status_to_string(status)));
   }
   return bytes;
 }

@@ -25,10 +25,10 @@ Chart reliability_chart(const RunResults& results) {
   constexpr ChartPoint kCorner{56.0, 44.0}, kSize{300.0, 300.0};
   constexpr Axis kShares{0.0, 1.0, 0.2};
   if (results.reliability.empty()) return {};
-  Chart chart("reliability", "What methods say of points, and what comes true",
+  Chart chart("reliability", "Confidence of points, and the share of them that moves",
               "A line for each method, a marker for each bin of confidence with " +
                   std::to_string(kFewestInBin) +
-                  " points or more. On the dotted line, what is said comes true.");
+                  " points or more. The dotted line is perfect calibration.");
   Plot plot(chart, kCorner, kSize, kShares, kShares, "mean confidence", "share that moves");
   chart.line({plot.at(0.0, 0.0), plot.at(1.0, 1.0)}, "iso");
   std::vector<ChartSeries> series;

@@ -103,7 +103,7 @@ Chart stage_chart(const RunResults& results) {
   if (overlap) {
     chart.text(kMargin, 38.0,
                "Stages that ran on several threads at once are summed over them; the number beside "
-               "a bar is the time that passed.",
+               "a bar is the wall time.",
                "soft");
   }
   const double pixels_per_ms = (kWidth - 2.0 * kMargin - kTotal) / (most > 0.0 ? most : 1.0);

@@ -67,7 +67,7 @@ void check_something_kept(const std::vector<const KeptCell*>& cells) {
 std::string reason_of(const KeptCell* cell) {
   if (cell == nullptr) return "not chosen";
   if (!cell->has_result()) return cell->status + (cell->reason.empty() ? "" : ": " + cell->reason);
-  return cell->has_removals() ? "" : "what it removed was not kept (run --keep-removals)";
+  return cell->has_removals() ? "" : "its removals were not stored (run --keep-removals)";
 }
 
 /// "PR 98.1  RR 90.0  F1 0.939" by the first protocol of the run.

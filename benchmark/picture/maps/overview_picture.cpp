@@ -163,7 +163,7 @@ WorldWindow busiest_place(const Sequence& sequence, const ScanSource& scans,
                           const OpenContext& context) {
   std::map<std::pair<int, int>, double> cells;
   const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / kCell)); };
-  for_each_point(sequence, scans, masks, "looking for what was removed", context,
+  for_each_point(sequence, scans, masks, "reading the removals", context,
                  [&](const PointOutcome& point) {
                    const Eigen::Vector3d at = camera.to_view(point.world);
                    if (!camera.window.contains(at)) return;
@@ -273,7 +273,7 @@ Canvas drawn(const KeptCell& cell, std::size_t scans, const Views& views,
             " of moving points left, " + percent_text(views.wrong, views.points - views.moving) +
             " of static ones lost");
   const int right = kOverviewMargin + wide + kOverviewGap;
-  panel(views.zoom, right, kOverviewMargin, "What was removed, within the outline");
+  panel(views.zoom, right, kOverviewMargin, "Removed points within the outline");
   draw_outline(canvas, views.raw.camera(), place, kOverviewMargin,
                kOverviewMargin + kOverviewHeading);
   draw_outline(canvas, views.raw.camera(), place, kOverviewMargin, second + kOverviewHeading);

@@ -34,7 +34,7 @@ std::string record_difference(const std::string& what, const ordered_json& store
   const std::string change = first_change(what, stored, wanted);
   if (!change.empty()) return change;
   for (const auto& [key, value] : stored.items()) {
-    if (!wanted.contains(key)) return (what.empty() ? key : what + " " + key) + " is no more";
+    if (!wanted.contains(key)) return (what.empty() ? key : what + " " + key) + " was removed";
   }
   return "";
 }
@@ -63,7 +63,7 @@ std::string identity_difference(const Cell& stored, const CellIdentity& wanted) 
     return fmt::format("columns version was {}, is {}", value_text(stored.columns->version),
                        value_text(kColumnsVersion));
   }
-  return "it was made otherwise";
+  return "it was made with other settings";
 }
 
 std::string method_difference(const MethodRecord& stored, const SuiteMethodRecord& wanted) {
@@ -89,7 +89,7 @@ std::string protocol_difference(const std::vector<ProtocolRecord>& stored,
   }
   for (const ProtocolRecord& protocol : stored) {
     if (find_named(wanted, protocol.name) == nullptr) {
-      return "protocol " + protocol.name + " is no more asked for";
+      return "protocol " + protocol.name + " is no longer requested";
     }
   }
   return "";

@@ -48,7 +48,7 @@ std::vector<std::string> flat_sweeps(const RunResults& results, const Sweep& swe
       if (found.value_or(false)) flat.push_back(sequence);
     }
     if (flat.empty()) continue;
-    lines.push_back(sweep.points.front()->values[k].first + " made no difference" +
+    lines.push_back(sweep.points.front()->values[k].first + " had no effect" +
                     (flat.size() == compared ? "" : " on " + join(flat)) + ": with each of its " +
                     std::to_string(values.size()) +
                     " values exactly the same points were removed.");

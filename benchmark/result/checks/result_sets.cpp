@@ -65,9 +65,9 @@ std::filesystem::path find_results(const std::string& given) {
                      ": has no results.json; the run did not reach its end. Start it again "
                      "with the same --out to go on.");
   }
-  throw UsageError(given +
-                   ": is no run folder (no run.json in it); expected what `raymoval run --out` "
-                   "made.");
+  throw UsageError(
+      given +
+      ": is not a run folder (no run.json in it); expected what `raymoval run --out` made.");
 }
 
 ResultSet read_result_set(const std::filesystem::path& file) {
@@ -83,13 +83,14 @@ void write_reference(const std::filesystem::path& file, const std::filesystem::p
                      bool with_times) {
   ResultsRecord results = read_results(file);
   if (!results.control_problems.empty()) {
-    throw UsageError(file.string() + ": no reference is made of a run whose controls are off (" +
+    throw UsageError(file.string() +
+                     ": a run whose controls have wrong scores cannot be a reference (" +
                      results.control_problems.front() + ").");
   }
   bool timed = false;
   for (Cell& cell : results.cells) {
     if (!cell.ok()) {
-      throw UsageError(file.string() + ": no reference is made of a run with failed cells (" +
+      throw UsageError(file.string() + ": a run with failed cells cannot be a reference (" +
                        cell.title() + ": " + cell.reason + ").");
     }
     timed = timed || cell.measured;

@@ -39,7 +39,8 @@ std::vector<std::uint32_t> label_words(const std::filesystem::path& path, const 
     throw DataError(path.string() + ": " + grouped_text(bytes.size()) + " bytes, expected " +
                     grouped_text(scan.stored_point_count * sizeof(std::uint32_t)) +
                     " (one 32-bit word for each of the " + grouped_text(scan.stored_point_count) +
-                    " points of scan " + scan.name + "). It is cut off or of another scan.");
+                    " points of scan " + scan.name +
+                    "). It is truncated or belongs to another scan.");
   }
   std::vector<std::uint32_t> words(scan.stored_point_count);
   if (!bytes.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());
@@ -191,7 +192,8 @@ namespace {
 
 void check_folder(const std::filesystem::path& folder) {
   if (!is_folder(folder)) {
-    throw DataError(folder.string() + (is_there(folder) ? ": is no folder" : ": no such folder") +
+    throw DataError(folder.string() +
+                    (is_there(folder) ? ": is not a folder" : ": no such folder") +
                     "; expected one with a NNNNNN.label file for each scan.");
   }
 }

@@ -51,7 +51,7 @@ SpeedRecord read_speed(const std::filesystem::path& file) {
   try {
     json = nlohmann::ordered_json::parse(read_text(file));
   } catch (const nlohmann::json::exception& error) {
-    throw DataError(name + ": this is no JSON (" + error.what() +
+    throw DataError(name + ": this is not JSON (" + error.what() +
                     "); expected the speed.json of scripts/benchmark.sh.");
   }
   RecordReader(json, name).check_schema_version();

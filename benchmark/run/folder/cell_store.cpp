@@ -40,7 +40,7 @@ std::string damage(const path& file) {
 void check_replaceable(const path& removals) {
   if (can_remove_removals(removals)) return;
   throw DataError(removals.string() +
-                  ": holds files that no run writes, so it is not replaced. Move them away.");
+                  ": holds files that are not from a run, so it is not replaced. Move them away.");
 }
 
 /// Whether a run writes files of this name into a cell's folder.
@@ -93,10 +93,10 @@ StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
     }
     if (!same) return {State::kStale, identity_difference(cell, wanted), {}};
     if (scans != nullptr && !has_removals(folder(name), cell, *scans)) {
-      return {State::kStale, "its removals are asked for and not there, or not whole", {}};
+      return {State::kStale, "its removals are requested, but missing or incomplete", {}};
     }
     if (confidence && !cell.reliability) {
-      return {State::kStale, "its confidence is asked for and was not scored", {}};
+      return {State::kStale, "its confidence is requested, but was not scored", {}};
     }
     return {State::kFresh, "", std::move(cell)};
   } catch (const UnreadableError&) {

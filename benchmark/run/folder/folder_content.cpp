@@ -54,7 +54,9 @@ std::string why_other_protocols(const RunRecord& present, const RunRecord& asked
   }
   const std::string difference =
       protocol_difference(without_versions(present.protocols), without_versions(asked.protocols));
-  return difference.empty() ? "" : "the folder's results are scored otherwise: " + difference + ".";
+  return difference.empty()
+             ? ""
+             : "the folder's results are scored with other options: " + difference + ".";
 }
 
 /// Two different names with the same folder, such as "a:b" and "a-b".
@@ -142,8 +144,8 @@ std::optional<RunRecord> present_record(const path& out) {
     problem = "it is damaged, or was changed by hand";
   }
   throw DataError(
-      fmt::format("{}: {}, so what the folder holds cannot be told. Name another "
-                  "folder, or replace its results with --overwrite.",
+      fmt::format("{}: {}, so the content of the folder is unknown. Name another folder, or "
+                  "replace its results with --overwrite.",
                   file.string(), problem));
 }
 

@@ -26,8 +26,8 @@ class OtherData : public DataError {
  public:
   OtherData(const std::string& at, const std::string& difference)
       : DataError(at + ": is not the data that the run was made on: " + difference +
-                  ". It was changed, or it is another sequence; say where the right one is with "
-                  "--data, or run again.") {}
+                  ". It was changed, or it is another sequence; name the right folder with --data, "
+                  "or run again.") {}
 };
 
 /// Every sequence x method of the suite; some may not have been run.
@@ -98,7 +98,7 @@ bool KeptCell::has_removals() const {
 
 std::string keep_removals_remedy(const KeptCell& cell) {
   return cell.sequence + " / " + cell.name +
-         ": what it removed was not kept. Run the same command again with --keep-removals: only "
+         ": its removals were not stored. Run the same command again with --keep-removals: only "
          "cells without it are run.";
 }
 
@@ -138,8 +138,8 @@ SequenceRequest KeptRun::place_of(const std::string& sequence) const {
   const SequenceRecord* known = find_named(record_.run.sequences, sequence);
   if (known != nullptr && known->place) return *known->place;
   if (data_.empty()) {
-    throw DataError(folder_.string() + ": run.json does not say where sequence '" + sequence +
-                    "' is (it is missing, or of an earlier version). Say it with --data.");
+    throw DataError(folder_.string() + ": run.json has no folder for sequence '" + sequence +
+                    "' (it is missing, or of an earlier version). Name its folder with --data.");
   }
   SequenceRequest place;
   if (known != nullptr && !known->data.frames.empty()) {
@@ -166,8 +166,8 @@ Sequence KeptRun::open_at(const std::string& at, const std::string& sequence,
                           const SequenceRequest& place, const OpenContext& context) const {
   if (!simulate_ && !is_at_hand(at)) {
     throw DataError(at +
-                    ": is a scene that is not in the cache. It is only made if you say so: add "
-                    "--simulate if you know the scene and have the time and space for it.");
+                    ": is a scene that is not in the cache. Add --simulate to simulate it, if you "
+                    "have the time and disk space.");
   }
   Sequence opened = open_sequence(at, place.options, context);
   const std::size_t scans = scans_of(sequence), found = opened.scans->size();
@@ -199,7 +199,7 @@ Sequence KeptRun::open(const std::string& sequence, const OpenContext& context) 
     }
   }
   throw DataError("sequence '" + sequence + "' cannot be opened again: " + problem +
-                  (data_.empty() ? " If it was moved, say where it is with --data." : ""));
+                  (data_.empty() ? " If it was moved, name its folder with --data." : ""));
 }
 
 MaskStore KeptRun::masks(const KeptCell& cell, const Sequence& sequence) const {
@@ -211,8 +211,8 @@ MaskStore KeptRun::masks(const KeptCell& cell, const Sequence& sequence) const {
   MaskStore masks = read_removals(cell.removals, *sequence.scans, [] {});
   if (!cell.cell->masks || mask_digest(masks) != cell.cell->masks->digest) {
     throw DataError(cell.removals.string() +
-                    ": does not hold what the method was scored by; it was changed. Remove the "
-                    "folder and run the same command again with --keep-removals.");
+                    ": is not what was scored; it was changed. Remove the folder and run the same "
+                    "command again with --keep-removals.");
   }
   return masks;
 }

@@ -106,10 +106,10 @@ void prepare_run_folder(const path& out) {
 
 void check_run_folder_stays(const path& out) {
   if (has_file(out / kRunMarker)) return;
-  throw DataError(out.string() +
-                  ": is no longer the folder of this run; it was moved or removed meanwhile. What "
-                  "was finished before is where it was moved to: name that with --out, and the "
-                  "same command goes on.");
+  throw DataError(
+      out.string() +
+      ": is no longer the folder of this run; it was moved or removed meanwhile. Finished cells "
+      "are in the moved folder: name it with --out, and the same command runs the rest.");
 }
 
 bool is_record_of_run(const path& file) {

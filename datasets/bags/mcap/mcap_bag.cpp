@@ -190,8 +190,8 @@ class McapReader {
     }
     if (damage_.empty() && !(has_end_ && has_footer(file_))) {
       damage_.add(name() + ": ends at byte " + grouped_text(file_.bytes().size()) +
-                  " without the footer of a MCAP file: it is cut, or its recorder was stopped; "
-                  "what stands before is read.");
+                  " without the footer of a MCAP file: it is truncated, or its recorder was "
+                  "stopped; everything before it is read.");
     }
     const std::uint64_t found = contents_.messages.size();
     if (damage_.empty() && known_.messages && *known_.messages != found) {
@@ -212,7 +212,7 @@ class McapReader {
       throw DataError(file_.where(record) + " of " + grouped_text(record.size) +
                       " bytes goes beyond the end of the file (" +
                       grouped_text(file_.bytes().size()) +
-                      " bytes), which is cut or damaged; what stands before is read.");
+                      " bytes), which is truncated or damaged; everything before it is read.");
     }
     if (record.op == McapOp::kMessage) {
       add_message(file_.beginning(record, kMcapMessageHeadSize), file_.where(record),
@@ -237,7 +237,7 @@ class McapReader {
     });
     const std::string& problem = unpacked.problem.empty() ? cut : unpacked.problem;
     if (!problem.empty())
-      damage_.add(place.where + ": " + problem + "; what stands before is read.");
+      damage_.add(place.where + ": " + problem + "; everything before it is read.");
   }
 
   /// @param head the beginning of the message's content
@@ -290,9 +290,9 @@ std::string McapBag::message_head(std::size_t topic, std::size_t index, std::siz
   const auto of_topic = contents_.topics.find(head.channel);
   if (of_topic == contents_.topics.end() || of_topic->second != topic ||
       mcap_time(head.log_time) != message.recorded) {
-    throw DataError(where + ": the index leads to byte " + grouped_text(place.offset) +
-                    ", where the message that it tells of does not stand; the file is damaged. "
-                    "`mcap recover` writes it anew.");
+    throw DataError(
+        where + ": the index leads to byte " + grouped_text(place.offset) +
+        ", where there is no such message; the file is damaged. `mcap recover` rewrites it.");
   }
   bytes.erase(0, kMcapMessageHeadSize);
   bytes = unpacked_if_packed(std::move(bytes), topics()[topic].encoding == MessageEncoding::kCdr,
@@ -328,7 +328,7 @@ std::string McapBag::in_chunk(const McapChunkPlace& chunk, const McapMessagePlac
   }
   throw DataError(chunk.where + ": " +
                   (problem.empty() ? "the message at byte " + grouped_text(place.offset) +
-                                         " in it is not all there"
+                                         " in it is incomplete"
                                    : problem) +
                   "; the file is damaged. Copy it again.");
 }

@@ -83,12 +83,12 @@ std::string for_each_record(std::string_view records,
   for (std::size_t at = 0; at < records.size();) {
     const std::string_view rest = records.substr(at);
     const std::string place = "byte " + grouped_text(at) + " in it";
-    if (rest.size() < kMcapHeadSize) return place + " begins a record that is cut";
+    if (rest.size() < kMcapHeadSize) return place + " begins a truncated record";
     McapFields head(rest, "");
     const auto op = static_cast<McapOp>(head.u8());
     const std::uint64_t size = head.u64();
     if (op == McapOp::kInvalid) return place + " begins a record of type 0, which does not exist";
-    if (size > rest.size() - kMcapHeadSize) return place + " begins a record that is cut";
+    if (size > rest.size() - kMcapHeadSize) return place + " begins a truncated record";
     const auto length = static_cast<std::size_t>(size);
     call({op, at, rest.substr(kMcapHeadSize, length)});
     at += kMcapHeadSize + length;
@@ -114,7 +114,7 @@ Unpacked unpack_by(const std::string& compression, std::string packed, std::uint
   std::string problem;
   if (packed.size() != stated) {
     problem = "it has " + grouped_text(packed.size()) + " of the " + grouped_text(stated) +
-              " bytes that it is said to have";
+              " bytes that it should have";
   }
   return {std::move(packed), problem};
 }
@@ -178,12 +178,12 @@ McapChunkPlace McapFile::chunk(const McapPlace& record) const {
   chunk.head = read_mcap_chunk(beginning(record, kChunkHeadSize), chunk.where);
   const std::string& compression = chunk.head.compression;
   if (!compression.empty() && compression != "lz4" && compression != "zstd") {
-    throw DataError(chunk.where + " is packed by '" + compression +
+    throw DataError(chunk.where + " is compressed by '" + compression +
                     "'; expected lz4, zstd or nothing. Write the file again by `mcap compress "
                     "--compression zstd`.");
   }
   if (chunk.head.packed_size > record.size - chunk.head.packed_at) {
-    throw DataError(chunk.where + " is said to hold " + grouped_text(chunk.head.packed_size) +
+    throw DataError(chunk.where + " should hold " + grouped_text(chunk.head.packed_size) +
                     " bytes of records, more than it has; the file is damaged. Copy it again.");
   }
   chunk.packed = record.content() + chunk.head.packed_at;

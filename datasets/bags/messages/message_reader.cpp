@@ -49,7 +49,7 @@ std::string_view MessageReader::take(std::size_t size, const char* field) {
   if (position_ > bytes_.size() || size > left) {
     fail("its " + std::string(field) + " takes " + counted_text(size, "byte") + " from byte " +
          grouped_text(position_) + " on, but the message has " + grouped_text(bytes_.size()) +
-         "; it is cut or damaged, or not of the type that the bag says.");
+         "; it is truncated or damaged, or not of the type that the bag names.");
   }
   const std::string_view taken = bytes_.substr(position_, size);
   position_ += size;
@@ -59,9 +59,9 @@ std::string_view MessageReader::take(std::size_t size, const char* field) {
 std::uint32_t MessageReader::count(const char* field, std::size_t least) {
   const auto count = number<std::uint32_t>(field);
   if (count > 0 && (bytes_.size() - position_) / least < count) {
-    fail("its " + std::string(field) + " is said to have " + counted_text(count, "element") +
-         ", but " + counted_text(bytes_.size() - position_, "byte") +
-         " are left; it is cut or damaged, or not of the type that the bag says.");
+    fail("its " + std::string(field) + " should have " + counted_text(count, "element") + ", but " +
+         counted_text(bytes_.size() - position_, "byte") +
+         " are left; it is truncated or damaged, or not of the type that the bag names.");
   }
   return count;
 }

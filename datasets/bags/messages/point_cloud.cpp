@@ -57,7 +57,7 @@ PointField read_field(MessageReader& reader) {
   field.size = kTypes[type - 1U].size;
   constexpr std::uint32_t kMostValues = 1U << 24U;
   if (count > kMostValues) {
-    reader.fail("the field '" + field.name + "' is said to have " + grouped_text(count) +
+    reader.fail("the field '" + field.name + "' should have " + grouped_text(count) +
                 " values a point; the message looks damaged.");
   }
   field.count = static_cast<int>(count);
@@ -119,7 +119,7 @@ void check_data(PointsMessage& cloud, std::uint64_t data_bytes, const MessageRea
   reader.fail(grouped_text(cloud.height) + " x " + grouped_text(cloud.width) + " points of " +
               grouped_text(cloud.point_step) + " bytes take " + grouped_text(wanted) +
               " bytes, but data has " + grouped_text(data_bytes) +
-              "; the message is cut or contradicts itself.");
+              "; the message is truncated or contradicts itself.");
 }
 
 /// What a PointCloud2 says before its data.

@@ -89,7 +89,7 @@ Pose rigid_pose(const PoseMessage& message, const std::string& where) {
   if (!message.position.allFinite() || !(std::abs(length - 1.0) <= kMostOff)) {
     throw DataError(where + ": a pose of " + (message.child.empty() ? "no name" : message.child) +
                     " in " + message.frame +
-                    " is no rigid motion: its position is not finite, or its quaternion has "
+                    " is not a rigid motion: its position is not finite, or its quaternion has "
                     "length " +
                     number_text(length) + " in place of 1.");
   }

@@ -30,7 +30,7 @@ class Ros1Reader {
     const std::string problem = index_problem();
     if (!problem.empty()) {
       notes_.add(name_ + ": " + problem +
-                 " It is read from front to back; `rosbag reindex` mends it.");
+                 " It is read from front to back; `rosbag reindex` repairs it.");
       contents_ = {};
       read_front_to_back();
     }
@@ -66,8 +66,8 @@ class Ros1Reader {
     }
     const BagTopic& topic = contents_.messages.topics()[known->second];
     if (topic.name == connection.topic && topic.type == connection.type) return;
-    notes_.add(name_ + ": connection " + std::to_string(connection.id) + " is said to be of " +
-               topic.name + " and of " + connection.topic + "; the first is taken.");
+    notes_.add(name_ + ": connection " + std::to_string(connection.id) + " is both of " +
+               topic.name + " and of " + connection.topic + "; the first is used.");
   }
 
   /// Takes all messages from the index. @return why they have to be looked for without it; else
@@ -77,10 +77,10 @@ class Ros1Reader {
     if (index_begin_ > file_.size()) {
       return "the file ends at byte " + grouped_text(file_.size()) +
              ", before its index, which should begin at byte " + grouped_text(index_begin_) +
-             ": it is cut.";
+             ": it is truncated.";
     }
     const std::string damage = damage_in([&] { read_index(); });
-    return damage.empty() ? "" : "the index is cut or damaged (" + damage + ").";
+    return damage.empty() ? "" : "the index is truncated or damaged (" + damage + ").";
   }
 
   void read_index() {
@@ -101,12 +101,12 @@ class Ros1Reader {
           messages += little_endian<std::uint32_t>(counts, i * kCountBytes + 4);
         }
       } else {
-        refuse(at, "neither a connection nor a chunk in the index.");
+        refuse(at, "the index has a record that is neither a connection nor a chunk.");
       }
       at = record.end();
     }
     if (places_.size() != chunks_ || contents_.topics.size() != connections_) {
-      refuse(index_begin_, "the index tells of " + counted_text(places_.size(), "chunk") + " and " +
+      refuse(index_begin_, "the index lists " + counted_text(places_.size(), "chunk") + " and " +
                                counted_text(contents_.topics.size(), "connection") +
                                ", the header of " + grouped_text(chunks_) + " and " +
                                grouped_text(connections_) + ".");
@@ -208,7 +208,7 @@ class Ros1Reader {
                    problem);
     if (!unpacked.problem.empty()) problem = unpacked.problem;
     if (problem.empty() && !chunk.cut) return;
-    notes_.add(where + " is " + (chunk.cut ? "cut" : "damaged") +
+    notes_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") +
                (problem.empty() ? "" : " (" + problem + ")") + "; " +
                counted_text(count, "message") + " of it can be read.");
   }
@@ -227,13 +227,14 @@ class Ros1Reader {
       }
       // A small file that unpacks to very many small messages would fill the memory.
       if (contents_.messages.size() > file_.size()) {
-        throw DataError(found->where + ": the bag unpacks to more messages than it has bytes.");
+        throw DataError(found->where +
+                        ": the bag decompresses to more messages than it has bytes.");
       }
       const std::uint32_t connection = found->u32("conn");
       const auto topic = contents_.topics.find(connection);
       if (topic == contents_.topics.end()) {
         notes_.add(found->where + ": a message of connection " + std::to_string(connection) +
-                   ", of which nothing is known, is left out.");
+                   ", which the bag does not describe, is left out.");
         continue;
       }
       contents_.messages.add(
@@ -278,7 +279,8 @@ std::string Ros1Bag::read_message(std::size_t topic, std::size_t index, std::siz
   const ChunkStore::Chunk unpacked = unpacked_.get(chunk_of(place), [&] {
     Unpacked all = unpack_chunk(file_, chunk);
     if (!all.problem.empty()) {
-      notes_.add(where + " is " + (chunk.cut ? "cut" : "damaged") + " (" + all.problem + ").");
+      notes_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") + " (" + all.problem +
+                 ").");
     }
     return std::move(all.bytes);
   });
@@ -297,9 +299,9 @@ std::string Ros1Bag::read_from(const Ros1Bytes& chunk, std::uint64_t offset, std
   }
   const auto of_topic = contents_.topics.find(found->u32("conn"));
   if (of_topic == contents_.topics.end() || of_topic->second != topic) {
-    throw DataError(where + ": the index places a message of " + topics()[topic].name +
-                    " there, but it is of another topic; the index is damaged. `rosbag reindex` "
-                    "mends it.");
+    throw DataError(
+        where + ": the index places a message of " + topics()[topic].name +
+        " there, but it is of another topic; the index is damaged. `rosbag reindex` repairs it.");
   }
   return chunk.read(found->data_begin, std::min<std::uint64_t>(most, found->data_size));
 }

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 3> kCompressionNames = {"none", "bz2", "l
 [[noreturn]] void throw_cut(const std::string& place, std::uint64_t wanted, std::uint64_t there,
                             const char* what) {
   throw DataError(place + ": " + what + " takes " + grouped_text(wanted) + " bytes, but " +
-                  grouped_text(there) + " are left; the file is cut or damaged there.");
+                  grouped_text(there) + " are left; the file is truncated or damaged there.");
 }
 
 /// The bytes of the field `name`; nothing if there is none.
@@ -99,7 +99,7 @@ std::string Ros1Bytes::read(std::uint64_t offset, std::uint64_t count) const {
 
 std::string Ros1Bytes::place(std::uint64_t offset) const {
   if (file_ != nullptr) return file_->place(begin_ + offset);
-  return chunk_place_ + ": byte " + grouped_text(offset) + " of the unpacked chunk";
+  return chunk_place_ + ": byte " + grouped_text(offset) + " of the decompressed chunk";
 }
 
 Ros1Record read_record(const Ros1Bytes& bytes, std::uint64_t offset) {
@@ -108,7 +108,7 @@ Ros1Record read_record(const Ros1Bytes& bytes, std::uint64_t offset) {
   if (left < kLength) throw_cut(bytes.place(offset), kLength, left, "the length of a record");
   const auto header_size = little_endian<std::uint32_t>(first, 0);
   if (header_size > kLongestHeader) {
-    throw DataError(bytes.place(offset) + ": a record's header is said to have " +
+    throw DataError(bytes.place(offset) + ": a record's header should have " +
                     grouped_text(header_size) +
                     " bytes, more than any has; the file looks damaged there.");
   }
@@ -149,8 +149,7 @@ Nanoseconds ros1_time(std::string_view bytes, std::size_t offset) {
 Ros1Connection read_connection(const Ros1Bytes& bytes, const Ros1Record& record) {
   check_data_is_there(bytes, record);
   if (record.data_size > kLongestConnection) {
-    throw DataError(record.where + ": a connection is said to have " +
-                    grouped_text(record.data_size) +
+    throw DataError(record.where + ": a connection should have " + grouped_text(record.data_size) +
                     " bytes, more than any has; the file looks damaged.");
   }
   const std::string fields = bytes.read(record.data_begin, record.data_size);
@@ -180,9 +179,9 @@ Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record) {
   if (chunk.compression != Ros1Compression::kNone) {
     check_unpacked_size(record.data_size, chunk.size, record.where + ": a chunk");
   } else if (chunk.size != record.data_size) {
-    throw DataError(record.where + ": a chunk that is not packed has " +
-                    grouped_text(record.data_size) + " bytes, but is said to have " +
-                    grouped_text(chunk.size) + "; the file looks damaged.");
+    throw DataError(record.where + ": an uncompressed chunk has " + grouped_text(record.data_size) +
+                    " bytes, but should have " + grouped_text(chunk.size) +
+                    "; the file looks damaged.");
   }
   return chunk;
 }

@@ -80,15 +80,15 @@ void SqliteDatabase::fail(int code) const {
   if (kind == SQLITE_NOMEM) {
     // The library says so of damaged schemas as well, and it asks for little otherwise.
     throw DataError(path_.string() +
-                    ": reading it takes memory that is not to be had. If the machine has memory "
-                    "left, the database is damaged: copy it again.");
+                    ": there is not enough memory to read it. If the machine has memory left, the "
+                    "database is damaged: copy it again.");
   }
   if ((kind == SQLITE_IOERR && code != SQLITE_IOERR_SHORT_READ) || kind == SQLITE_CANTOPEN ||
       kind == SQLITE_PERM) {
     const int cause = handle_ ? sqlite3_system_errno(handle()) : 0;
     throw UnreadableError(path_.string() + ": cannot be read or written (" + reason +
                           (cause == 0 ? "" : ": " + std::generic_category().message(cause)) +
-                          "). Check its rights, and that its disk or share answers.");
+                          "). Check its rights, and that its disk or share is reachable.");
   }
   if (kind == SQLITE_INTERRUPT) {
     throw DataError(
@@ -98,8 +98,8 @@ void SqliteDatabase::fail(int code) const {
         "again.");
   }
   throw DataError(path_.string() + ": the database cannot be read (" + reason +
-                  "); it is damaged or cut. Copy it again, or save what is left by `sqlite3 FILE "
-                  ".recover`.");
+                  "); it is damaged or truncated. Copy it again, or save what is left by `sqlite3 "
+                  "FILE .recover`.");
 }
 
 SqliteStatement::SqliteStatement(const SqliteDatabase& database, std::string_view sql)
@@ -146,8 +146,8 @@ std::uint64_t big_endian(std::string_view bytes) {
 /// What SQLite keeps beside a database while it is written.
 void check_nothing_beside(const std::filesystem::path& path) {
   const std::string remedy =
-      " belongs to it and holds what is not in it yet: the recorder was stopped in the middle, or "
-      "is running. Open it once with what may write it: `sqlite3 " +
+      " belongs to it and holds data that is not in it yet: the recorder was stopped in the "
+      "middle, or is running. Open it once with write access: `sqlite3 " +
       path.filename().string() + " 'PRAGMA wal_checkpoint(TRUNCATE); SELECT 1 FROM topics;'`.";
   for (const char* ending : {"-wal", "-journal"}) {
     const std::filesystem::path beside = path.string() + ending;
@@ -172,8 +172,9 @@ bool is_cut(const BagFile& file, DamageNotes& damage) {
   const std::uint64_t page_size = stored_size == 1 ? 65536 : stored_size;
   const std::uint64_t expected = page_size * big_endian(head.substr(28, 4));
   if (file.size() >= expected) return false;
-  damage.add(file.path().string() + ": the database is cut: it has " + grouped_text(file.size()) +
-             " of " + grouped_text(expected) + " bytes; what can be found in them is read.");
+  damage.add(file.path().string() + ": the database is truncated: it has " +
+             grouped_text(file.size()) + " of " + grouped_text(expected) +
+             " bytes; all readable messages in them are read.");
   return true;
 }
 
@@ -199,7 +200,7 @@ void Db3Bag::check_tables() const {
                                           std::string(name) + "') WHERE hidden <> 0");
     if (is_table && hidden.step() && hidden.number(0) == 0) continue;
     throw DataError(path().string() + ": has no table '" + name +
-                    "', so it is no recording of rosbag2, or cut where that should stand. Name a "
+                    "', so it is not a recording of rosbag2, or is truncated before it. Name a "
                     ".db3 that `ros2 bag record` wrote.");
   }
 }
@@ -231,7 +232,7 @@ void Db3Bag::read_messages() {
     if (id <= last || bytes > file_.size()) {
       throw DataError(place(id) +
                       " shares its place in the file with others; the database is damaged, and "
-                      "what stands before is read.");
+                      "everything before it is read.");
     }
     last = id;
     const auto topic = topics_.find(rows.number(1));

@@ -84,7 +84,7 @@ void add_file(Ros2Metadata& metadata, const YAML::Node& node, std::set<fs::path>
   if (node.IsScalar()) file.listed = node.Scalar();
   if (file.listed.empty()) {
     throw DataError(place(metadata.path, node.Mark()) +
-                    ": the name of a file is expected; `ros2 bag reindex` writes the file anew.");
+                    ": the name of a file is expected; `ros2 bag reindex` rewrites the file.");
   }
   const auto places = candidates(folder, file.listed, metadata.version);
   const auto found = std::find_if(places.begin(), places.end(), [](const fs::path& place) {
@@ -105,13 +105,13 @@ void check_packing(const YAML::Node& information, const fs::path& path) {
   const std::string format = lower(value_of(information, "compression_format"));
   if (mode.empty() || mode == "none" || mode == "~" || mode == "null") return;
   if (format != "zstd") {
-    throw UsageError(path.string() + ": the recording is packed by '" + format +
-                     "', which is not read; expected zstd. `ros2 bag convert` writes it anew.");
+    throw UsageError(path.string() + ": the recording is compressed by '" + format +
+                     "', which is not read; expected zstd. `ros2 bag convert` rewrites it.");
   }
   if (mode == "file" || mode == "message") return;
-  throw UsageError(path.string() + ": compression_mode is '" + mode +
-                   "', which is not read; expected FILE or MESSAGE. `ros2 bag convert` writes the "
-                   "recording anew.");
+  throw UsageError(
+      path.string() + ": compression_mode is '" + mode +
+      "', which is not read; expected FILE or MESSAGE. `ros2 bag convert` rewrites the recording.");
 }
 
 /// Says of each listed file how many messages it should have.
@@ -134,9 +134,9 @@ void check_version(const YAML::Node& information, int version, const fs::path& p
   }
   const std::string storage = value_of(information, "storage_identifier");
   if (storage != "sqlite3" && storage != "mcap") {
-    throw UsageError(where + "the recording is stored by '" + storage +
-                     "', which is not read; expected sqlite3 or mcap. `ros2 bag convert` writes it "
-                     "anew.");
+    throw UsageError(
+        where + "the recording is stored by '" + storage +
+        "', which is not read; expected sqlite3 or mcap. `ros2 bag convert` rewrites it.");
   }
 }
 
@@ -161,8 +161,7 @@ Ros2Metadata parsed_metadata(const fs::path& path) {
   }
   if (metadata.files.empty()) {
     throw DataError(path.string() +
-                    ": lists no file below 'relative_file_paths'; `ros2 bag reindex` writes it "
-                    "anew.");
+                    ": lists no file below 'relative_file_paths'; `ros2 bag reindex` rewrites it.");
   }
   add_counts(metadata, information);
   return metadata;
@@ -179,7 +178,7 @@ Ros2Metadata read_ros2_metadata(const fs::path& folder) {
     return parsed_metadata(path);
   } catch (const YAML::Exception& error) {
     throw DataError(place(path, error.mark) + ": " + error.msg +
-                    ". Expected what `ros2 bag record` writes; `ros2 bag reindex` writes it anew.");
+                    ". Expected what `ros2 bag record` writes; `ros2 bag reindex` rewrites it.");
   }
 }
 

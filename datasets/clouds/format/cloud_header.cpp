@@ -36,7 +36,7 @@ std::vector<std::string_view> HeaderLines::next() {
   const std::size_t end = bytes_.find('\n', at_);
   if (end == std::string_view::npos || end - at_ > 65536) {
     throw DataError(path_.string() + ": the header does not end: no line '" + last_entry_ +
-                    "' in it. The file is cut or is no such file." + kRereadRemedy);
+                    "' in it. The file is truncated or has another format." + kRereadRemedy);
   }
   const std::string_view line = bytes_.substr(at_, end - at_);
   at_ = end + 1;

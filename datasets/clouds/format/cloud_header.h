@@ -73,7 +73,7 @@ class HeaderLines {
   Number number(std::string_view text, Number minimum, Number maximum) const {
     const auto value = parse_number<Number>(text);
     if (!value || *value < minimum || *value > maximum) {
-      fail("'" + std::string(text.substr(0, 40)) + "' is not a number that can stand here.");
+      fail("'" + std::string(text.substr(0, 40)) + "' is not a number that is valid here.");
     }
     return *value;
   }

@@ -136,7 +136,7 @@ std::vector<PointField> point_layout_fields(std::string_view text) {
   std::vector<PointField> fields;
   std::unordered_set<std::string_view> names;
   if (text.find(',') != std::string_view::npos) {
-    fail(text, ",", "stands between its fields, where blanks should be");
+    fail(text, ",", "is between its fields, where blanks should be");
   }
   for (const std::string_view word : split_blanks(text)) {
     const std::string_view name = word.substr(0, word.find(':'));
@@ -150,7 +150,7 @@ std::vector<PointField> point_layout_fields(std::string_view text) {
       if (!typed) fail(text, word, "has no known type");
       field = *typed;
     }
-    if (name != "_" && !names.insert(name).second) fail(text, word, "stands there twice");
+    if (name != "_" && !names.insert(name).second) fail(text, word, "occurs twice");
     field.name = name;
     fields.push_back(field);
   }

@@ -63,10 +63,10 @@ class Inflation {
     if (state == Z_BUF_ERROR && room == 0) return;
     if (state == Z_MEM_ERROR) throw std::bad_alloc();
     if (state == Z_BUF_ERROR) {
-      throw DataError(where_ + ": the packed data ends after " + grouped_text(packed_.size()) +
+      throw DataError(where_ + ": the compressed data ends after " + grouped_text(packed_.size()) +
                       " bytes, in the middle; the file looks truncated." + kRereadRemedy);
     }
-    throw DataError(where_ + ": the packed data is damaged near byte " + grouped_text(used_) +
+    throw DataError(where_ + ": the compressed data is damaged near byte " + grouped_text(used_) +
                     (stream_.msg != nullptr ? " (" + std::string(stream_.msg) + ")" : "") +
                     ". Copy the file again.");
   }
@@ -81,10 +81,10 @@ class Inflation {
 
 void check_unpacked(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
   if (unpacked <= most_unpacked(packed)) return;
-  throw DataError(where + ": unpacks to more than " + grouped_text(most_unpacked(packed)) +
+  throw DataError(where + ": decompresses to more than " + grouped_text(most_unpacked(packed)) +
                   " bytes, the limit for " + grouped_text(packed) +
-                  " packed ones (1,000 times as many and 1 MiB, at most 1 GiB). Unpack it yourself "
-                  "if you trust it.");
+                  " compressed ones (1,000 times as many and 1 MiB, at most 1 GiB). Decompress it "
+                  "yourself if you trust it.");
 }
 
 std::string unpack_gzip(std::string_view packed, const std::string& where) {
@@ -97,7 +97,7 @@ std::string unpack_gzip(std::string_view packed, const std::string& where) {
     if (rest.find_first_not_of('\0') == std::string_view::npos) break;
     if (!rest.starts_with("\x1F\x8B")) {
       throw DataError(where + ": " + grouped_text(rest.size()) +
-                      " bytes follow the end of the packed data that are no gzip; the file is "
+                      " bytes follow the end of the compressed data that are not gzip; the file is "
                       "damaged. Copy it again.");
     }
     inflation.begin_again();

@@ -32,11 +32,12 @@ struct AsciiLine {
   }
   [[noreturn]] void fail(std::size_t column, const std::string& what) const {
     const std::string_view word = words[column];
-    throw DataError(where() + ", column " + std::to_string(word.data() - text.data() + 1) + ": '" +
-                    std::string(word.substr(0, 40)) + "' " + what +
-                    (word.find(',') == std::string_view::npos
-                         ? "."
-                         : "; expected decimal points, not commas. Write the numbers anew."));
+    throw DataError(
+        where() + ", column " + std::to_string(word.data() - text.data() + 1) + ": '" +
+        std::string(word.substr(0, 40)) + "' " + what +
+        (word.find(',') == std::string_view::npos
+             ? "."
+             : "; expected decimal points, not commas. Write the numbers with points."));
   }
 };
 

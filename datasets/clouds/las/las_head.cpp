@@ -45,7 +45,7 @@ class LasHeadReader {
   }
   [[noreturn]] void fail_laz() const {
     throw DataError(where_ +
-                    ": is compressed (LAZ), which is not read. Unpack it: laszip -i in.laz -o "
+                    ": is compressed (LAZ), which is not read. Decompress it: laszip -i in.laz -o "
                     "out.las, or pdal translate in.laz out.las.");
   }
   std::string_view piece(std::uint64_t offset, std::uint64_t size) const {
@@ -63,7 +63,7 @@ class LasHeadReader {
   }
 
   void check_version() {
-    if (!bytes_.starts_with("LASF")) fail("is no LAS file: it does not begin with LASF");
+    if (!bytes_.starts_with("LASF")) fail("is not a LAS file: it does not begin with LASF");
     const int major = at<std::uint8_t>(24);
     minor_ = at<std::uint8_t>(25);
     if (major != 1 || minor_ > 4) {
@@ -81,7 +81,7 @@ class LasHeadReader {
     }
     const bool usable = head_.notes->scale.allFinite() && head_.notes->offset.allFinite() &&
                         (head_.notes->scale.array() != 0.0).all();
-    if (!usable) fail("its scales or offsets are no numbers to multiply and add; it is damaged");
+    if (!usable) fail("its scales or offsets are not usable numbers; it is damaged");
   }
 
   /// The records of variable length behind the head, and the extended ones behind the points.
@@ -145,7 +145,7 @@ class LasHeadReader {
     if (head_.points < room) {
       fail("the head announces " + grouped_text(head_.points) +
            " points, but there are bytes for " + grouped_text(room) +
-           "; whatever wrote it may not have ended it. Mend its head (lasinfo "
+           "; the program that wrote it may not have finished it. Repair its head (lasinfo "
            "-repair)");
     }
   }

@@ -72,7 +72,7 @@ void check_plain_shape(const CloudBytes& file, const NpyHead& head) {
   throw DataError(file.path.string() + ": the array is " + head.shape_text() +
                   (head.by_columns ? " (by columns)" : "") +
                   "; expected N x 3 numbers or more (x y z intensity), or N items with the fields "
-                  "x, y and z. Turn it round, or stack its columns.");
+                  "x, y and z. Transpose it, or stack its columns.");
 }
 
 /// @throws DataError if the array does not take just the bytes there are
@@ -157,7 +157,7 @@ class ZipArchive {
     const std::string reason = zip_error_strerror(&error);
     zip_error_fini(&error);
     throw DataError(where_ + ": the zip archive cannot be read (" + reason +
-                    "); it looks truncated, or is no zip archive." + kRereadRemedy);
+                    "); it looks truncated, or is not a zip archive." + kRereadRemedy);
   }
   ~ZipArchive() { zip_discard(archive_); }
   ZipArchive(const ZipArchive&) = delete;
@@ -198,7 +198,7 @@ class ZipArchive {
  private:
   [[noreturn]] void fail(const std::string& name) const {
     throw DataError(where_ + ": " + name +
-                    " in the zip archive is damaged, or packed in a way that is not read. Copy it "
+                    " in the zip archive is damaged, or has an unsupported compression. Copy it "
                     "again, or save it again by numpy.savez.");
   }
 

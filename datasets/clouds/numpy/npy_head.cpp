@@ -20,7 +20,7 @@ std::pair<std::string_view, std::string_view> head_and_body(const CloudBytes& fi
   const std::string where = file.path.string();
   constexpr std::string_view kMagic = "\x93NUMPY";
   if (!file.text.starts_with(kMagic) || file.text.size() < 12) {
-    throw DataError(where + ": is no .npy file: it does not begin with \\x93NUMPY and a head.");
+    throw DataError(where + ": is not a .npy file: it does not begin with \\x93NUMPY and a head.");
   }
   const int version = static_cast<unsigned char>(file.text[6]);
   if (version < 1 || version > 3) {
@@ -128,7 +128,7 @@ class TypeReader {
  private:
   void add(const YAML::Node& descr, const std::string& name, std::uint64_t count) {
     if (descr.IsScalar()) return add_number(descr.Scalar(), name, count);
-    if (!descr.IsSequence()) fail(where_, "the type of the array is no type");
+    if (!descr.IsSequence()) fail(where_, "the type of the array is not a type");
     if (count != 1) fail(where_, "the field '" + name + "' repeats a group of fields");
     for (const YAML::Node& item : descr) add_field(item, name);
   }
@@ -140,7 +140,7 @@ class TypeReader {
     const YAML::Node named = item[0];
     // A field with a title has (title, name).
     const YAML::Node name = named.IsSequence() && named.size() == 2 ? named[1] : named;
-    if (!name.IsScalar()) fail(where_, "the name of a field is no text");
+    if (!name.IsScalar()) fail(where_, "the name of a field is not a text");
     const bool filler = name.Scalar().empty();
     if (filler && !item[1].IsScalar()) fail(where_, "a field has no name");
     const std::uint64_t count = item.size() == 3 ? shape_count(item[2]) : 1;
@@ -200,7 +200,7 @@ NpyHead parsed_head(const CloudBytes& file, const std::string& where) {
   for (const YAML::Node& node : head["shape"]) {
     const auto length = length_in(node);
     if (!length || *length > kMostCloudPoints) {
-      throw DataError(where + ": the shape of the array has a length that is no count.");
+      throw DataError(where + ": the shape of the array has a length that is not a count.");
     }
     result.shape.push_back(*length);
   }

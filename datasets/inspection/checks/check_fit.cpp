@@ -121,7 +121,7 @@ std::vector<Finding> look_at_fit(Samples& samples) {
 
 std::string pose_fit_text(const Samples& samples) {
   const PoseFit& fit = *samples.pose_fit;
-  if (fit.pairs.empty()) return "no two scans overlap enough to tell how well poses fit";
+  if (fit.pairs.empty()) return "no two scans overlap enough to measure how well poses fit";
   const PairDistance& worst = worst_pair(fit);
   return fmt::format(
       "poses fit to {} m (median of {} of overlapping scans; worst {} m, frames {} and {}; noise "

@@ -134,7 +134,7 @@ bool has_words(const Samples& samples) {
 
 Finding shifted_finding(const Samples& samples, bool next, const std::string& what) {
   return {.where = label_place(samples, 0) + " and the others",
-          .what = fmt::format("labels of frame N are those of the scan {} it: {}",
+          .what = fmt::format("labels of frame N belong to the scan {} it: {}",
                               next ? "after" : "before", what)};
 }
 
@@ -220,8 +220,7 @@ std::vector<Finding> look_for_values(Samples& samples) {
                 "--label-rule); without one there are no labels.",
                 zero_or_one ? "1" : "252, 253, 254, 255, 256, 257, 258, 259")
           : "Write the labels to labels/NAME.label (uint32 a point) and the strength of the "
-            "return, "
-            "or 0, in their place: methods see intensity and must not see the answer.";
+            "return, or 0, in their place: methods get intensity and must not get the labels.";
   return {{.where = "intensity of the scan files",
            .what = fmt::format("all values are labels ({}{})", join(seen),
                                values.size() > 6 ? ", ..." : ""),
@@ -232,7 +231,7 @@ std::vector<Finding> look_for_values(Samples& samples) {
 
 std::vector<Check> label_checks() {
   return {
-      {"labels-shifted", "labels belong to the scan before or after",
+      {"labels-shifted", "labels are those of the scan before or after",
        "labels/N.label with the labels of scan N", "Rename the label files by one frame.",
        look_for_shift, Consequence::kUnused},
       {"label-count", "a scan has more or fewer labels than points",
@@ -240,7 +239,7 @@ std::vector<Check> label_checks() {
        "Copy scan and labels again from one source, or move the label file away: scans without one "
        "are not scored.",
        look_for_counts, Consequence::kUnused},
-      {"labels-in-intensity-by-value", "labels stand in the intensity of the points",
+      {"labels-in-intensity-by-value", "labels are stored in the intensity of the points",
        "the strength of the return", "Write the labels to labels/NAME.label.", look_for_values,
        Consequence::kUnused},
   };

@@ -41,7 +41,7 @@ std::string place_text(const Eigen::Vector3d& place) {
 /// @param given what a user says already @param right the origin in the frame of the stored points
 std::string remedy_of(const Eigen::Vector3d& given, const Eigen::Vector3d& right) {
   if (right.norm() < kNear && !given.isZero()) return "Leave --sensor-origin out.";
-  return "Say --sensor-origin " + place_text(right) + ".";
+  return "Use --sensor-origin " + place_text(right) + ".";
 }
 
 /// The field that names the sensor of a point; empty if there is none.
@@ -108,7 +108,7 @@ SeenSensors look_at_sensors(const Samples& samples) {
   finding.where = samples.all_frames();
   finding.what = fmt::format("field '{}' names {} sensors whose clouds are merged", places.field,
                              clouds.size());
-  finding.remedy = "Say --sensor-origin " + places.field + ":" + join(parts, "/") + ".";
+  finding.remedy = "Use --sensor-origin " + places.field + ":" + join(parts, "/") + ".";
   if (!seen.are_known) {
     finding.remedy += " X,Y,Z is the position of a sensor in the frame of the points.";
   }
@@ -159,7 +159,7 @@ std::vector<Finding> look_for_merged(Samples& samples) {
 std::vector<Check> origin_checks() {
   return {{"beams-start-elsewhere", "points are in the frame of a vehicle, not of the sensor",
            "points whose origin is the sensor, where the beams start",
-           "Say --sensor-origin with the position of the sensor in the frame of the points.",
+           "Use --sensor-origin with the position of the sensor in the frame of the points.",
            look_for_ray_origin, Consequence::kRefused},
           {"merged-sensors", "clouds of two sensors are merged, so rays start at the wrong place",
            "a cloud for each sensor, or a field 'lidar_id' that names the sensor of each point",

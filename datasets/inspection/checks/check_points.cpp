@@ -104,7 +104,7 @@ std::vector<Finding> look_for_few_points(Samples& samples) {
   const std::string unit = samples.files().empty() ? " points" : " bytes";
   return {{.where = samples.scan_name(sizes[at].scan),
            .what = fmt::format(
-               "holds {}{}, {} % of what the scans around it hold; it looks cut off{}",
+               "holds {}{}, {} % of what the scans around it hold; it looks truncated{}",
                grouped_text(static_cast<std::uint64_t>(sizes[at].size)), unit,
                fixed_text(100.0 * shares[at], 0),
                small.size() > 1 ? ", and so do " + grouped_text(small.size() - 1) + " more" : "")}};
@@ -218,21 +218,22 @@ std::vector<Finding> look_for_truncation(Samples& samples) {
 
 std::vector<Check> point_checks() {
   return {
-      {"points-in-millimetres", "points are millimetres", "metres",
+      {"points-in-millimetres", "points are in millimetres", "metres",
        "Multiply the coordinates by 0.001.", look_for_millimetres, Consequence::kRefused},
       {"left-out",
-       "points are no returns (NaN or at the origin), or of the own vehicle (--drop-ego), and no "
-       "method sees them",
-       "returns of what is around the sensor",
-       "Nothing: labels and masks keep the places of all stored points.", look_for_no_returns},
+       "points are missing returns (NaN or at the origin) or on the ego vehicle (--drop-ego), and "
+       "no method gets them",
+       "returns of the surroundings of the sensor",
+       "Nothing to do: labels and masks still have a value for each stored point.",
+       look_for_no_returns},
       {"few-points", "a scan has far fewer points than those around it",
        "as many points as in the scans before and after", "Copy the scan again with its labels.",
        look_for_few_points},
-      {"duplicated-scans", "a scan is there twice", "each scan once",
+      {"duplicated-scans", "a scan occurs twice", "each scan once",
        "Remove the copy with its pose and labels.", look_for_duplicates},
-      {"range-truncated", "points are cut off at a range", "all returns of the sensor",
-       "Use unfiltered scans; --range MIN:MAX says what is evaluated without taking points from "
-       "the methods.",
+      {"range-truncated", "points beyond a range are missing", "all returns of the sensor",
+       "Use unfiltered scans; --range MIN:MAX limits the evaluation and leaves the methods all "
+       "points.",
        look_for_truncation},
   };
 }

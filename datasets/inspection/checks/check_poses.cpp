@@ -102,12 +102,10 @@ std::vector<Check> time_checks() {
   return {
       {kMissingPoses, "a quarter of the scans or more have no pose, often because clocks differ",
        "a pose for each scan",
-       "Take the trajectory of the whole drive, or say --time-offset if its clock is another one.",
+       "Take the trajectory of the whole drive, or use --time-offset if its clock is another one.",
        look_for_missing_poses},
-      {"time-offset", "scans and poses are of clocks that differ", "scans and poses on one clock",
-       "Say --time-offset with the time of poses less that of "
-       "scans.",
-       look_for_time_offset},
+      {"time-offset", "the clocks of scans and poses differ", "scans and poses on one clock",
+       "Use --time-offset with the time of poses minus that of scans.", look_for_time_offset},
       {"gap-in-time", "scans are missing in between", "one scan a period",
        "Add the missing scans, or choose frames without the gap (--frames).", look_for_gaps},
       {"jump-in-motion", "scans were left out and the rest renumbered, or a pose is wrong",
@@ -140,7 +138,7 @@ std::size_t points_below(const Scan& scan, const Eigen::Vector3d& centre) {
 
 constexpr const char* kWriteViewpoint =
     "Write the position and attitude of the sensor at each scan into its VIEWPOINT; points in the "
-    "world frame do not tell where they were seen from.";
+    "world frame do not contain the position of the sensor.";
 
 /// Whether all files have one VIEWPOINT, though their points move from scan to scan.
 bool is_left_at_one_place(const Samples& samples) {
@@ -196,29 +194,28 @@ std::vector<Finding> look_for_sensor(Samples& samples) {
 std::vector<Check> pose_checks() {
   const std::string agree = "scans that lie on each other under T_world_sensor of each";
   return {
-      verdict_check("poses-inverted", "poses take the world to the sensor (T_sensor_world)", agree,
+      verdict_check("poses-inverted",
+                    "poses transform from the world to the sensor (T_sensor_world)", agree,
                     "Invert each pose: R^T and -R^T t. For a pose file, --pose-format inverse does "
                     "that."),
-      verdict_check(
-          "camera-frame", "poses or points are in camera axes, not in the LiDAR's",
-          "LiDAR axes: x ahead, y left, z up, in points and poses alike",
-          "Poses of a camera: take them to the LiDAR with T = Tr^-1 P Tr (in "
-          "SemanticKITTI layout put 'Tr:' into calib.txt and leave \"poses_are_lidar\" "
-          "out; elsewhere say --T-sensor with the pose of the LiDAR in the camera's frame). "
-          "Points of a camera frame: bring them to the LiDAR with Tr^-1."),
+      verdict_check("camera-frame", "poses or points are in camera axes, not in the LiDAR's",
+                    "LiDAR axes: x ahead, y left, z up, in points and poses alike",
+                    "Poses of a camera: transform them to the LiDAR with T = Tr^-1 P Tr (in "
+                    "SemanticKITTI layout put 'Tr:' into calib.txt and leave \"poses_are_lidar\" "
+                    "out; elsewhere use --T-sensor with the pose of the LiDAR in the camera's "
+                    "frame). Points in a camera frame: transform them to the LiDAR with Tr^-1."),
       verdict_check("lidar-poses-as-camera",
                     "poses of the LiDAR are read as those of a camera (or the points, not the "
                     "poses, are in camera axes)",
                     "camera poses beside a calib.txt with 'Tr:'",
-                    "Say \"poses_are_lidar\": true in sequence.json."),
-      verdict_check(
-          "quaternion-order", "the quaternion's numbers stand in another order",
-          "TUM rows: t x y z qx qy qz qw; VIEWPOINT: tx ty tz qw qx qy qz",
-          "For a pose file say --pose-format euroc if w is the first of the four numbers, or "
-          "--pose-format tum if it is the last. Else reorder the columns."),
-      verdict_check("poses-in-millimetres", "positions of the poses are millimetres", "metres",
+                    "Set \"poses_are_lidar\": true in sequence.json."),
+      verdict_check("quaternion-order", "quaternions have their numbers in another order",
+                    "TUM rows: t x y z qx qy qz qw; VIEWPOINT: tx ty tz qw qx qy qz",
+                    "For a pose file use --pose-format euroc if w is the first of the four "
+                    "numbers, or --pose-format tum if it is the last. Else reorder the columns."),
+      verdict_check("poses-in-millimetres", "positions of the poses are in millimetres", "metres",
                     "Divide the positions by 1,000."),
-      verdict_check("poses-coarse", "positions far from the origin lost their digits",
+      verdict_check("poses-coarse", "positions far from the origin have too few digits",
                     "positions to the millimetre",
                     "Write positions with all their digits (in C++ std::setprecision(12)), or "
                     "shift them to an origin near by."),
@@ -229,27 +226,26 @@ std::vector<Check> pose_checks() {
                     "VIEWPOINT is not applied to the stored points, or is not "
                     "the pose of the sensor",
                     "stored points = T p with T from VIEWPOINT and p in the sensor frame",
-                    "Say --points sensor if the points are in the frame of the sensor."),
-      {"sensor-elsewhere", "the sensor does not stand where VIEWPOINT says",
+                    "Use --points sensor if the points are in the frame of the sensor."),
+      {"sensor-elsewhere", "VIEWPOINT is not the position of the sensor",
        "VIEWPOINT = tx ty tz qw qx qy qz, the pose of the sensor",
        "Write the pose of the sensor at each scan into its VIEWPOINT.", look_for_sensor,
        Consequence::kRefused},
-      verdict_check("points-in-world", "points stand in the world frame though there are poses",
-                    "points in the frame of the sensor", "Say --points world."),
+      verdict_check("points-in-world", "points are in the world frame although there are poses",
+                    "points in the frame of the sensor", "Use --points world."),
       verdict_check(
           "poses-shifted", "poses are those of the scan before or after", agree,
-          "Shift the rows of the pose file by one, so that row N belongs to scan N. If poses "
-          "and scans have times, say --time-offset with the time of a scan, or its negative."),
-      verdict_check("poses-of-a-body", "poses are those of a body on which the sensor is turned",
-                    agree,
-                    "Say where the sensor is on the body (--T-sensor), or mend 'Tr' of calib.txt."),
-      verdict_check("poses-of-another-time", "scans and poses are of clocks that differ by much",
-                    agree, "Say --time-offset with the time of poses less that of scans."),
+          "Shift the rows of the pose file by one, so that row N belongs to scan N. If poses and "
+          "scans have times, use --time-offset with the time of a scan, or its negative."),
       verdict_check(
-          "poses-of-another-sequence", "poses do not belong to these scans", agree,
-          "Take the pose file that belongs to these scans (--poses FILE). If its poses are "
-          "those of a body that carries the sensor, say where the sensor is on it "
-          "(--T-sensor). If its clock is another one, say --time-offset."),
+          "poses-of-a-body", "poses are those of a body, and the sensor is rotated on it", agree,
+          "Give the pose of the sensor on the body (--T-sensor), or correct 'Tr' in calib.txt."),
+      verdict_check("poses-of-another-time", "the clocks of scans and poses differ by much", agree,
+                    "Use --time-offset with the time of poses minus that of scans."),
+      verdict_check("poses-of-another-sequence", "poses do not belong to these scans", agree,
+                    "Take the pose file that belongs to these scans (--poses FILE). If its poses "
+                    "are those of a body that carries the sensor, give the pose of the sensor on "
+                    "it (--T-sensor). If its clock is another one, use --time-offset."),
   };
 }
 

@@ -83,7 +83,7 @@ std::string sensor_text(const Samples& samples) {
 }
 
 std::vector<Check> sensor_model_checks() {
-  return {{"other-sensor", "the scans are not those of the sensor that is named",
+  return {{"other-sensor", "the scans are not from the named sensor",
            "steps and a field of view as the scans show them",
            "Name the right sensor (\"sensor\" in sequence.json, or --sensor), or let it be "
            "estimated (--sensor estimated).",
@@ -148,14 +148,14 @@ Finding ego_finding(const EgoPoints& ego, std::size_t scans, const EgoRegion& re
   finding.where = "points of all scans read";
   finding.what = "about " + grouped_text(ego.points / scans) + " points a scan (" +
                  fixed_text(100.0 * share, 2) + " %), up to " + fixed_text(ego.farthest, 1) +
-                 " m away, go along with the sensor: it sees the machine that carries it";
+                 " m away, move with the sensor: they are on the ego vehicle";
   finding.remedy = "Leave them out with --drop-ego auto, here the box " + ego_region_text(region) +
                    " (or \"drop_ego\" in sequence.json); --range only limits what is evaluated.";
   if (10 * ego.labelled >= 8 * ego.points) {
     finding.severity = Severity::kNote;
-    finding.what += "; their labels say so (" + ego_ids_text(ego) + ")";
+    finding.what += "; they are labelled as such (" + ego_ids_text(ego) + ")";
     finding.remedy =
-        "Nothing, if methods are meant to see that machine. If not: l" + finding.remedy.substr(1);
+        "Nothing, if methods should get these points. If not: l" + finding.remedy.substr(1);
   }
   return finding;
 }
@@ -186,9 +186,9 @@ std::vector<Finding> look_for_ego(Samples& samples) {
 
 std::vector<Check> ego_checks() {
   return {
-      {"ego-vehicle", "the machine that carries the sensor is in view",
-       "no point of it, which methods take for something that is always there",
-       "Leave it out with --drop-ego auto, or say where it is.", look_for_ego},
+      {"ego-vehicle", "the ego vehicle is in view",
+       "no point on it, which methods treat as a static object",
+       "Leave it out with --drop-ego auto, or give its region.", look_for_ego},
   };
 }
 

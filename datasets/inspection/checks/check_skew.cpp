@@ -161,21 +161,20 @@ std::vector<Finding> look_for_skew(Samples& samples) {
       static_cast<double>(fit.better(best)) / static_cast<double>(pairs.size()));
   if (gain < kClear || loss > 1.0 || 4 * fit.better(best) < 3 * pairs.size()) return {};
   return {{.where = "points of all scans",
-           .what = fmt::format(
-               "scans {} m apart agree {} % better if the sensor's motion is undone "
-               "within each (sweep {})",
-               fixed_text(kDistance, 0), fixed_text(100.0 * (gain - 1.0), 0), kSweeps[best].text)}};
+           .what = fmt::format("scans {} m apart fit {} % better if the sensor's motion is undone "
+                               "within each (sweep {})",
+                               fixed_text(kDistance, 0), fixed_text(100.0 * (gain - 1.0), 0),
+                               kSweeps[best].text)}};
 }
 
 }  // namespace
 
 std::vector<Check> skew_checks() {
-  return {
-      {"skewed-scans", "points are not corrected for the motion of the sensor during a scan",
-       "all points of a scan in the sensor's frame at one time",
-       "If points have times, say --deskew. Else correct each point with the motion between its "
-       "time and that of the scan (deskewing, as LiDAR odometry programs do).",
-       look_for_skew}};
+  return {{"skewed-scans", "points are not corrected for the motion of the sensor during a scan",
+           "all points of a scan in the sensor's frame at one time",
+           "If points have times, use --deskew. Else correct each point with the motion between "
+           "its time and that of the scan (deskewing, as LiDAR odometry programs do).",
+           look_for_skew}};
 }
 
 }  // namespace raymoval::inspection

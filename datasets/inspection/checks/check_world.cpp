@@ -34,9 +34,9 @@ std::vector<Finding> look_damaged(Samples& samples) {
 }  // namespace
 
 std::vector<Check> recording_checks() {
-  return {{"recording-damaged", "a recording is cut or damaged, or was never closed",
-           "a whole recording, because what cannot be read of it is left out",
-           "Copy it again and compare its size, or mend it; what could be read is used.",
+  return {{"recording-damaged", "a recording is truncated or damaged, or was never closed",
+           "a whole recording, because its unreadable parts are left out",
+           "Copy it again and compare its size, or repair it; its readable parts are used.",
            look_damaged}};
 }
 
@@ -78,15 +78,15 @@ std::optional<Finding> far_position(const Samples& samples, const MethodFrame& f
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string where = samples.pose_source() + ", frame " + samples.frame_name(i);
     if (const auto place = frame.too_far(poses[i].translation())) {
-      return Finding{.where = where, .what = "the sensor stands " + *place};
+      return Finding{.where = where, .what = "the sensor is " + *place};
     }
     const double magnitude = largest(poses[i].translation());
     if (!(double_step(magnitude) <= kCoarsestPosition)) {
       return Finding{
           .where = where,
-          .what = fmt::format("the sensor stands {} m from the world's origin, where "
-                              "numbers have steps of {} m",
-                              metres_text(magnitude), number_text(double_step(magnitude)))};
+          .what = fmt::format(
+              "the sensor is {} m from the world's origin, where numbers have steps of {} m",
+              metres_text(magnitude), number_text(double_step(magnitude)))};
     }
   }
   return std::nullopt;
@@ -121,7 +121,7 @@ std::vector<Finding> look_out_of_reach(Samples& samples) {
 }  // namespace
 
 std::vector<Check> reach_checks() {
-  return {{"out-of-reach", "a position or point is farther away than methods and scores reach",
+  return {{"out-of-reach", "a position or point is too far away for methods and scores",
            fmt::format("points within {} m of their sensor, and all within {} m of the first scan "
                        "along each axis, as far as the voxels of all methods reach",
                        metres_text(kFarthestReturn), metres_text(kUsualReach)),
@@ -138,7 +138,7 @@ double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 std::string evidence_text(const GravityEvidence& evidence) {
   return fmt::format(
-      "the ground faces {}, and of the other surfaces {} % by area stand upright if up is {}",
+      "the ground faces {}, and of the other surfaces {} % by area are upright if up is {}",
       up_text(evidence.ground), fixed_text(100.0 * evidence.share_upright, 0),
       up_text(evidence.upright));
 }
@@ -156,8 +156,8 @@ std::vector<Finding> look_at_axes(Samples& samples) {
   if (up.source != UpDirection::Source::kEstimated) return {};
   const GravityEvidence evidence = estimate_gravity(*samples.sequence().scans);
   return {{.severity = Severity::kNote,
-           .what = fmt::format("up is {}: {}; methods get the world turned, results and maps stay "
-                               "as the poses have them",
+           .what = fmt::format("up is {}: {}; methods get the rotated world; results and maps keep "
+                               "the world of the poses",
                                up_text(up.direction), evidence_text(evidence))}};
 }
 
@@ -210,11 +210,11 @@ std::vector<Finding> look_for_coarse_points(Samples& samples) {
 std::vector<Check> world_checks() {
   return {
       {"world-axes", "the z axis of the poses' world is not up", "up along any axis",
-       "If something else is up, say so with --up or \"up\" in sequence.json.", look_at_axes},
+       "If another direction is up, set --up or \"up\" in sequence.json.", look_at_axes},
       {"up-contradicted", "--up or \"up\" in sequence.json is not against gravity",
        "the direction against gravity in the world of the poses",
        "Leave --up and \"up\" in sequence.json out, or correct them.", look_for_wrong_up},
-      {"coordinates-coarse", "points far from the world's origin lost their digits as float32",
+      {"coordinates-coarse", "points far from the world's origin are too coarse as float32",
        "points to the millimetre",
        "Write x y z as float64 (SIZE 8 8 8), or shift points and VIEWPOINT to an origin near by.",
        look_for_coarse_points},

@@ -81,8 +81,8 @@ bool in_camera_axes(Samples& samples) {
 void look_at_axes(Samples& samples, PoseVerdict& verdict) {
   if (verdict.check != "lidar-poses-as-camera" || !in_camera_axes(samples)) return;
   verdict.what =
-      "the ground lies along +y of the points: they stand in camera axes (x right, y down, z "
-      "ahead), but the poses do not";
+      "the ground lies along +y of the points: they are in camera axes (x right, y down, z ahead), "
+      "but the poses do not";
   verdict.check = "camera-frame";
 }
 
@@ -139,8 +139,8 @@ std::vector<PoseHypothesis> turned_on_body(const std::vector<Pose>& poses,
                               "--T-sensor " + mounting_text(mount) + "."};
     if (mount.translation().isZero()) {
       hypothesis.remedy +=
-          " The sensor turns too little to tell its position on the body; put "
-          "it in place of the zeros if you know it.";
+          " The sensor turns too little to estimate its position on the body; replace the zeros "
+          "if you know it.";
     }
     all.push_back(std::move(hypothesis));
   }
@@ -158,7 +158,7 @@ std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
     if (T_body_sensor) {
       hypothesis.remedy = "Multiply the pose of --T-sensor from the right by the pose of " + option;
     } else if (!of_camera) {
-      hypothesis.remedy = "Say " + option;
+      hypothesis.remedy = "Use " + option;
     }
   }
   if (of_camera) return all;
@@ -170,7 +170,7 @@ std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
     for (PoseHypothesis& hypothesis : turned_on_body(poses, seen)) {
       hypothesis.check = read.check;
       hypothesis.phrase = read.phrase + " and " + hypothesis.phrase;
-      hypothesis.remedy = "Say " + read.option + " " + hypothesis.remedy;
+      hypothesis.remedy = "Use " + read.option + " " + hypothesis.remedy;
       all.push_back(std::move(hypothesis));
     }
   }
@@ -184,7 +184,7 @@ std::optional<PoseHypothesis> time_hypothesis(Samples& samples) {
   PoseHypothesis hypothesis{
       "poses-of-another-time", "with the poses of " + time_offset_option(samples, *offset),
       [&samples, offset = *offset](std::size_t i) { return pose_with(samples, offset, i); }};
-  hypothesis.remedy = "Say " + time_offset_option(samples, *offset) + ".";
+  hypothesis.remedy = "Use " + time_offset_option(samples, *offset) + ".";
   return hypothesis;
 }
 
@@ -239,7 +239,7 @@ PoseVerdict compare_hypotheses(Samples& samples) {
   if (!fit.says_something() || given >= kGood) return {};
   const auto [best, reached] = best_hypothesis(samples, fit, hypotheses);
   samples.measures.emplace_back("agreement_of_best_hypothesis", reached);
-  const std::string now = "the scans agree to " + percent(given) + " under the poses";
+  const std::string now = "the scans fit to " + percent(given) + " under the poses";
   if (reached >= kNamed && reached > given + kBetter) {
     return {best.check, now + " and to " + percent(reached) + " " + best.phrase, best.remedy};
   }

@@ -96,7 +96,7 @@ void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& a
     all.push_back({"viewpoint-missing", "once VIEWPOINT is applied to the stored points",
                    [&poses](std::size_t i) { return poses[i] * poses[i]; }});
   } else {
-    all.push_back({"points-in-world", "if the points are taken as they stand, without the poses",
+    all.push_back({"points-in-world", "if the points are used as stored, without the poses",
                    [](std::size_t) { return Pose(Pose::Identity()); }});
   }
 }

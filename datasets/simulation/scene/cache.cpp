@@ -158,8 +158,8 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
       sweep_cache(scene.folder.parent_path());
       return scene.folder;
     }
-    scene.say(scene.folder.string() + ": is not what was written there (" + problem +
-              "); it is made again.");
+    scene.say(scene.folder.string() + ": differs from what was written there (" + problem +
+              "); it is simulated again.");
   }
   make_scene(scene);
   return scene.folder;

@@ -143,7 +143,7 @@ RowSpec read_row(const nlohmann::json& json, const std::string& where) {
   row.part = read_part(f);
   row.presence = read_presence(f);
   if (row.presence.is_limited() && !row.part.part.starts_with("parked")) {
-    f.fail("present_from_s", "a part that is parked: others stand for ever");
+    f.fail("present_from_s", "a parked part; other parts are always present");
   }
   return row;
 }

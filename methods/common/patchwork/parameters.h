@@ -35,7 +35,7 @@ void add_ground_parameters(ParameterTable<Method>& table) {
   table
       .number("sensor_height", &P::sensor_height,
               {"m", 0.05, 50, given("sensor_height"),
-               "Height of the sensor above the ground at the first scan; later scans tell it anew.",
+               "Height of the sensor above the ground at the first scan; later scans update it.",
                "public_height is true"})
       .number(
           "ground_min_range", &P::ground_min_range,
@@ -47,11 +47,12 @@ void add_ground_parameters(ParameterTable<Method>& table) {
                {"points", 1, 100000, given("num_min_pts"), "A bin with fewer has no ground."})
       .integer("lowest_points", &P::lowest_points,
                {"points", 1, 100000, given("num_lpr"),
-                "So many lowest points of a bin have the mean height where its ground begins."})
+                "Number of lowest points of a bin whose mean height is the lowest point "
+                "representative."})
       .integer("plane_rounds", &P::plane_rounds,
                {"", 1, 100, given("num_iter"),
-                "Times that points near the plane are chosen and the plane is fitted to them; also "
-                "the most walls that are taken out of a bin before."})
+                "Iterations of choosing points near the plane and fitting it; also the maximum "
+                "number of walls removed from a bin before."})
       .number("seed_height", &P::seed_height,
               {"m", 0.001, 10, given("th_seeds"),
                "Points less than this above that mean height seed the ground's plane."})
@@ -61,25 +62,25 @@ void add_ground_parameters(ParameterTable<Method>& table) {
       .number(
           "wall_seed_height", &P::wall_seed_height,
           {"m", 0.001, 10, given("th_seeds_v"),
-           "The same as seed_height, for the plane that tells whether a bin begins with a wall."})
+           "The same as seed_height, for the plane that decides whether a bin begins with a wall."})
       .number("wall_distance", &P::wall_distance,
               {"m", 0.001, 10, given("th_dist_v"),
-               "Points at most so far from a wall's plane are no ground."})
+               "Points within this distance of a wall's plane are not ground."})
       .number("upright", &P::upright,
               {"", 0, 0.999, given("uprightness_thr"),
-               "A plane whose unit normal has no greater z is no ground."})
+               "A plane whose unit normal has at most this z is not ground."})
       .number("noise_reflectance", &P::noise_reflectance,
               {"", 0, 1000, given("RNR_intensity_thr"),
-               "Of points far below the ground those with less reflectance are mirrored. Without "
-               "reflectance, and with 0, none is."})
+               "Points far below the ground with less reflectance than this are reflections. "
+               "Without reflectance, or with 0, no point is."})
       .flag("public_height", &P::public_height,
             {.source = "not in Patchwork++",
              .sentence = "The sensor is sensor_height above the ground at first. Else the first "
-                         "scan tells, by the planes that it has around the sensor."})
+                         "scan estimates it from the planes around the sensor."})
       .flag("public_axes", &P::public_axes,
             {.source = "the public program of MapCleaner",
              .sentence = "Sectors of bins begin at the world's x axis. Else they begin at the "
-                         "sensor's, so that the way the world is turned changes nothing."});
+                         "sensor's, so that a rotation of the world changes nothing."});
 }
 
 }  // namespace raymoval::patchwork

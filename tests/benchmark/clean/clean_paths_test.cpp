@@ -54,7 +54,7 @@ TEST_CASE("An input is never an output, whatever its name") {
     CHECK_THROWS_WITH(check_apart_from(data.sequence, map_to(path)), Contains("read as an input"));
   }
   CHECK_THROWS_WITH(check_apart_from(data.sequence, map_to(data.root / "scans/map.pcd")),
-                    Contains("among the scans"));
+                    Contains("in the folder of the scans"));
   const fs::path given = data.folder.path() / "rule.pcd";
   write_atomically(given, "a rule");
   check_apart_from(data.sequence, map_to(given));
@@ -83,7 +83,7 @@ TEST_CASE("What the system cannot look at is not taken for absent") {
   CHECK_FALSE(identity_of(file / "below a file"));
   test::make_unreadable(file);
   CHECK_THROWS_AS(identity_of(file), UnreadableError);
-  CHECK_THROWS_WITH(identity_of(file), Contains("map.pcd: cannot be looked at ("));
+  CHECK_THROWS_WITH(identity_of(file), Contains("map.pcd: cannot be accessed ("));
 }
 
 TEST_CASE("Outputs do not stand in each other's place") {
@@ -93,7 +93,7 @@ TEST_CASE("Outputs do not stand in each other's place") {
   CHECK_THROWS_WITH(check_paths(paths), Contains("-o and --labelled name the same file"));
   paths.labelled.clear();
   paths.scans = folder.path();
-  CHECK_THROWS_WITH(check_paths(paths), Contains("one is in the other"));
+  CHECK_THROWS_WITH(check_paths(paths), Contains("name nested folders"));
   paths.scans = folder.path() / "scans";
   paths.page = folder.path() / "page.png";
   CHECK_THROWS_WITH(check_paths(paths), Contains("ends in .html"));

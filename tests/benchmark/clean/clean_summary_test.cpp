@@ -35,5 +35,5 @@ TEST_CASE("What to try follows from what was done") {
   Finding skewed;
   skewed.check = "scans-skewed";
   CHECK_THAT(advice(500, "noop", {skewed, skewed}, false),
-             Contains("mend what was said of the data: scans-skewed."));
+             Contains("correct the mistakes in the data: scans-skewed."));
 }

@@ -30,20 +30,20 @@ TEST_CASE("What differs between two cells is told in words", "[result]") {
   CHECK(difference_with([](CellIdentity& to) { to.method.parameters[0].second = 1.0; }) ==
         "parameter size was 0.5, is 1.0");
   CHECK(difference_with([](CellIdentity& to) { to.method.parameters.clear(); }) ==
-        "parameter size is no more");
+        "parameter size was removed");
   CHECK(difference_with([](CellIdentity& to) { to.method.version = "2"; }) ==
         "method version was \"1\", is \"2\"");
   CHECK(difference_with([](CellIdentity& to) { to.protocols[0].options[0].second = 1.5; }) ==
         "protocol erasor options lift was 0.0, is 1.5");
   CHECK(difference_with([](CellIdentity& to) { to.protocols.clear(); }) ==
-        "protocol erasor is no more asked for");
+        "protocol erasor is no longer requested");
   CHECK(difference_with([](CellIdentity& to) { to.protocols[0].name = "other"; }) ==
         "protocol other is new");
   CHECK(difference_with([](CellIdentity& to) { to.data.range_m = {}; }) ==
         "data range_m max was 50.0, is null");
   CHECK(difference_with([](CellIdentity& to) { to.data.label_rule->moving = {1}; }) ==
         "data label_rule moving was [252], is [1]");
-  CHECK(identity_difference(cell, same) == "it was made otherwise");
+  CHECK(identity_difference(cell, same) == "it was made with other settings");
   Cell older = cell;
   older.columns.reset();
   CHECK(identity_difference(older, same) == "columns is new");

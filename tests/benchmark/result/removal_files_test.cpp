@@ -155,7 +155,7 @@ TEST_CASE("Whoever gives the folder above that of the label files is told which 
   CHECK_THROWS_WITH(read_removals(folder.path() / "none", scans, [] {}),
                     Contains("none: no such folder; expected one with"));
   const auto file = folder.write("file", "x");
-  CHECK_THROWS_WITH(read_removals(file, scans, [] {}), Contains("file: is no folder; expected"));
+  CHECK_THROWS_WITH(read_removals(file, scans, [] {}), Contains("file: is not a folder; expected"));
   CHECK_THROWS_WITH(write_removals(file / "below", scans, two_masks(), [] {}),
                     Contains("file/below: cannot be made") && Contains("Choose another folder"));
   write_removals(folder.path() / "both", scans, two_masks(), [] {});

@@ -41,7 +41,7 @@ TEST_CASE("A file of times is read as it was written") {
 TEST_CASE("A file that holds something else is an error that says what") {
   const test::TemporaryFolder folder;
   folder.write("speed.json", "{");
-  CHECK_THROWS_WITH(read_speed(folder.path() / "speed.json"), Contains("this is no JSON"));
+  CHECK_THROWS_WITH(read_speed(folder.path() / "speed.json"), Contains("this is not JSON"));
   folder.write("speed.json", R"({"schema_version": 1, "scene": 3})");
   CHECK_THROWS_WITH(read_speed(folder.path() / "speed.json"), Contains("scene"));
   folder.write("speed.json", R"({"schema_version": 2})");

@@ -86,7 +86,7 @@ TEST_CASE("A sweep that made no difference is pointed out") {
   results.cells[0].masks = results.cells[2].masks = MaskRecord{"same"};
   results.cells[1].masks = MaskRecord{"other"};  // Of s2, where there is nothing to compare with.
   const std::string line =
-      "size made no difference: with each of its 2 values exactly the same points were removed.";
+      "size had no effect: with each of its 2 values exactly the same points were removed.";
   CHECK(flat_sweeps(results) == std::vector<std::string>{"sweep of x over size: " + line});
   const std::vector<TextTable> tables = make_tables(results);
   const auto sweep = std::find_if(tables.begin(), tables.end(), [](const TextTable& table) {
@@ -113,10 +113,10 @@ TEST_CASE("Of a sweep over two parameters the one that made no difference is nam
     }
   }
   CHECK(flat_sweeps(results) ==
-        std::vector<std::string>{"sweep of x over a, b: a made no difference on s2: with each of "
+        std::vector<std::string>{"sweep of x over a, b: a had no effect on s2: with each of "
                                  "its 2 values exactly the same points were "
                                  "removed.",
-                                 "sweep of x over a, b: b made no difference: with each of its 3 "
+                                 "sweep of x over a, b: b had no effect: with each of its 3 "
                                  "values exactly the same points were "
                                  "removed."});
 }

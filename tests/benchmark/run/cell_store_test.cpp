@@ -154,9 +154,10 @@ TEST_CASE("A place where a cell could not be kept is refused before it is needed
   const fs::path removals = written_removals(store, masks);
   const fs::path place = store.folder(kName);
   write_atomically(place / "removals/notes.txt", "mine");
-  CHECK_THROWS_WITH(store.prepare(kName), Contains("removals: holds files that no run writes"));
+  CHECK_THROWS_WITH(store.prepare(kName),
+                    Contains("removals: holds files that are not from a run"));
   CHECK_THROWS_WITH(store.keep(cell, removals),
-                    Contains("removals: holds files that no run writes"));
+                    Contains("removals: holds files that are not from a run"));
   CHECK(store.has_result(kName));
   const test::TwoScans scans;
   CHECK(store.find(kName, identity(), &scans).state == StoredCell::State::kFresh);

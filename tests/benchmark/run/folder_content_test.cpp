@@ -121,7 +121,8 @@ TEST_CASE(
   CHECK(why_not_together(present, other).empty());
   other.protocols[0].options[0].second = 0.4;
   CHECK(why_not_together(present, other) ==
-        "the folder's results are scored otherwise: protocol erasor options voxel_size was 0.2, is "
+        "the folder's results are scored with other options: protocol erasor options voxel_size "
+        "was 0.2, is "
         "0.4.");
   other.protocols.push_back({"second", "erasor", "1", {}});
   CHECK(why_not_together(present, other) ==

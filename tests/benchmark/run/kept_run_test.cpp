@@ -110,14 +110,14 @@ TEST_CASE("Removals are given only if they were kept and are those of the result
     CHECK(run.masks(cell, run.open("drive", {})).get(0) == Mask{0, 0});
     fs::rename(cell.removals, two.run / "aside");
     CHECK_THROWS_WITH(run.masks(cell, run.open("drive", {})),
-                      Contains("drive / noop:default: what it removed was not kept") &&
+                      Contains("drive / noop:default: its removals were not stored") &&
                           Contains("--keep-removals"));
     fs::rename(two.run / "aside", cell.removals);
   }
   two.change_results([](ResultsRecord& results) { results.cells[0].masks.reset(); });
   const KeptRun run(two.run.string(), "");
   CHECK_THROWS_WITH(run.masks(run.cell("drive", "noop:default"), run.open("drive", {})),
-                    Contains("removals: does not hold what the method was scored by"));
+                    Contains("removals: is not what was scored"));
 }
 
 TEST_CASE("A sequence that was moved is looked for below --data, by the run's place and its name") {
@@ -127,7 +127,7 @@ TEST_CASE("A sequence that was moved is looked for below --data, by the run's pl
   const fs::path moved = two.folder.path() / "moved";
   fs::rename(two.root, moved);
   CHECK_THROWS_WITH(two.scans_of("drive"), Contains("sequence 'drive' cannot be opened again") &&
-                                               Contains("say where it is with --data"));
+                                               Contains("name its folder with --data"));
   CHECK(two.scans_of("drive", moved) == 1);
   CHECK(two.scans_of("five", moved) == 1);
   CHECK(two.scans_of("drive", moved / "drive") == 1);
@@ -157,8 +157,8 @@ TEST_CASE("Without run.json only --data says where a sequence is") {
   const TwoSequences two;
   fs::remove(two.run / "run.json");
   CHECK_THROWS_WITH(two.scans_of("drive"),
-                    Contains("run.json does not say where sequence 'drive' is") &&
-                        Contains("Say it with --data."));
+                    Contains("run.json has no folder for sequence 'drive'") &&
+                        Contains("Name its folder with --data."));
   CHECK(two.scans_of("drive", two.root) == 1);
   // With the frames of the run, of which there are more now.
   for (const char* part : {"velodyne/00000%.bin", "labels/00000%.label"}) {

@@ -115,7 +115,7 @@ TEST_CASE("Removals are not replaced where that would lose a file that no run ma
   write(cell / "removals/notes.txt", "mine");
   write_atomically(cell / "cell.json", "damaged, so it is run again");
   CHECK_THROWS_WITH(run_suite(one_scan(), {.out = folder.path(), .keep_removals = true}),
-                    Contains("removals: holds files that no run writes"));
+                    Contains("removals: holds files that are not from a run"));
   // What was there is there still, the run's own files as well.
   CHECK(read_text(cell / "removals/notes.txt") == "mine");
   CHECK(fs::exists(cell / "removals/000000.label"));

@@ -167,7 +167,7 @@ TEST_CASE("Chosen cells leave their sequences and methods only") {
   CHECK(names_of(chosen.run.sequences) == std::vector<std::string>{"a"});
   CHECK(names_of(chosen.run.methods) == std::vector<std::string>{"x"});
   CHECK(chosen.missing.empty());
-  CHECK_THROWS_WITH(choose_cells(whole, {"c"}), Contains("fits no cell of this run"));
+  CHECK_THROWS_WITH(choose_cells(whole, {"c"}), Contains("matches no cell of this run"));
 }
 
 TEST_CASE("The end of a run fits a screen for ten methods") {

@@ -146,7 +146,7 @@ TEST_CASE("Stages that are summed over threads have shares of their sum") {
   const TextTable table = make_tables(results).at(0);
   CHECK(rows_of(table) == std::vector<std::string>{"cast: 750.000, 75.0", "cluster: 250.000, 25.0",
                                                    "sum over threads: 1000.000, 100.0",
-                                                   "time that passed: 625.000, -"});
+                                                   "wall time: 625.000, -"});
   CHECK_THAT(table.notes.at(1), Contains("2 threads") && Contains("shares are of the sum"));
 }
 

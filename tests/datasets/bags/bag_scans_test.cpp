@@ -159,7 +159,7 @@ TEST_CASE("A file of indices that is damaged is an error", "[bags]") {
       (void)sequence.labels->labels(sequence.scans->load(1));
     });
   };
-  check_says(error("time,0\n"), {"line 1", "'time' is no time", "nanoseconds"});
+  check_says(error("time,0\n"), {"line 1", "'time' is not a time", "nanoseconds"});
   check_says(error("100300000000,0,-1\n"), {"line 1, field 3", "'-1'"});
   check_says(error("100300000000,0 1\n"), {"line 1, field 2", "'0 1'"});
   check_says(error("100300000000,0\n100300000000,1\n"), {"line 2", "time of line 1 again"});
@@ -210,7 +210,7 @@ TEST_CASE("By no label rule is a scan without indices scored", "[bags]") {
   }
   folder.write("rule.json", R"({"moving": [0, 251]})");
   check_says(message_of<ConfigurationError>([&] { (void)open_sequence(path, options); }),
-             {"'rule'", "label id 0", "nobody labelled"});
+             {"'rule'", "label id 0", "scans without labels"});
 }
 
 TEST_CASE("Frames of a bag are numbers of messages", "[bags]") {
@@ -279,7 +279,7 @@ TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
     add_clouds(bag);
     bag.tf(101, "odom", "base", shift(nan));
     check_says(data_error_of(bag), {"diverged.bag: tf", "no pose of frame base in odom",
-                                    "no rigid motion", "--pose-topic", "--poses"});
+                                    "not a rigid motion", "--pose-topic", "--poses"});
   }
   {
     // One of four that cannot be used is told as a loss, and stands with the result.
@@ -292,7 +292,7 @@ TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
     CHECK(position(sequence, 1).isApprox(Eigen::Vector3d(3, 0, 0), 1e-9));
     REQUIRE(sequence.losses.size() == 1);
     check_says(sequence.losses[0],
-               {"once.bag: tf: 1 message could not be used", "no rigid motion"});
+               {"once.bag: tf: 1 message could not be used", "not a rigid motion"});
     CHECK(sequence.record().losses == sequence.losses);
   }
   {
@@ -326,7 +326,7 @@ TEST_CASE("A bag without poses names what there is, and ways to poses", "[bags]"
   add_clouds(bag);
   bag.tf(0, "base", "lidar", shift(0, 0, 2), "/tf_static");
   const std::string path = bag.finish();
-  check_says(usage_error(path), {"drive.bag: there are no poses", "fixed in 'base'",
+  check_says(usage_error(path), {"drive.bag: there are no poses", "fixed transform",
                                  "/points (sensor_msgs/PointCloud2", "--pose-topic", "KISS-ICP",
                                  "GLIM", "FAST-LIO", "docs/poses.md", "identity"});
   SequenceOptions options;
@@ -398,14 +398,14 @@ TEST_CASE("Frames that do not fit are errors that name them", "[bags]") {
     bag.tf(100, "odom", "lidar", shift(0));
     bag.tf(100, "map", "lidar", shift(0));
     add_clouds(bag);
-    check_says(data_error(bag.finish()), {"frame lidar", "odom", "map", "one parent"});
+    check_says(data_error(bag.finish()), {"frame lidar", "odom", "map", "two parents"});
   }
   {
     MadeBag bag(folder / "circle.bag");
     bag.tf(100, "odom", "lidar", shift(0));
     bag.tf(100, "lidar", "odom", shift(0));
     add_clouds(bag);
-    check_says(data_error(bag.finish()), {"above itself"});
+    check_says(data_error(bag.finish()), {"its own ancestor"});
   }
 }
 
@@ -437,7 +437,7 @@ TEST_CASE("Points in the frame that the poses are told in stand in the world", "
   const Sequence sequence = open_sequence(path, {});
   CHECK(sequence.records->point_frame() == PointFrame::kWorld);
   CHECK(sequence.scans->load(0).points.at(0).isApprox(Eigen::Vector3f(9, 100.1F, 1), 1e-5F));
-  check_says(notes_of(sequence), {"'odom'", "stand in the world", "--points sensor"});
+  check_says(notes_of(sequence), {"'odom'", "the world frame of its poses", "--points sensor"});
 }
 
 TEST_CASE("A bag that was cut opens with what is there, and says so", "[bags]") {
@@ -451,7 +451,7 @@ TEST_CASE("A bag that was cut opens with what is there, and says so", "[bags]") 
   const Sequence sequence = open_sequence(path, {});
   CHECK(sequence.scans->size() == 4);
   REQUIRE_FALSE(sequence.damage.empty());
-  check_says(sequence.damage[0], {"drive.bag", "cut"});
+  check_says(sequence.damage[0], {"drive.bag", "truncated"});
   CHECK(lost_scan_lines(sequence) == sequence.damage);
   // What is damaged is said first.
   const std::vector<std::string> lines = opening_lines(sequence);

@@ -109,7 +109,8 @@ TEST_CASE("Of a cut chunk that is packed, what comes before the cut is read", "[
   const Ros1Bag bag(path);
   CHECK(all_messages(bag).size() > 10);
   CHECK(all_messages(bag).size() < 50);
-  check_says(join(bag.damage(), " "), {"cut.bag", "it is cut", "a chunk is cut", "can be read"});
+  check_says(join(bag.damage(), " "),
+             {"cut.bag", "it is truncated", "a chunk is truncated", "can be read"});
 }
 
 TEST_CASE("A bag that was never closed is read whole", "[bags]") {

@@ -64,7 +64,7 @@ TEST_CASE("a PCD header has all seven numbers of its viewpoint", "[header]") {
 TEST_CASE("counts of a PCD header end where 32 bits do", "[header]") {
   CHECK(pcd(sized("4294967295", "1")).points == 4294967295U);
   CHECK(pcd(sized("0", "0")).points == 0);
-  check_says(pcd_says(sized("4294967296", "1")), {"'4294967296' is not a number that can stand"});
+  check_says(pcd_says(sized("4294967296", "1")), {"'4294967296' is not a number that is valid"});
   check_says(pcd_says(sized("65536", "65536")), {"4,294,967,296 points of 12 bytes"});
   check_says(pcd_says(sized("-1", "1")), {"'-1'"});
   CHECK(ply(ply_of("element vertex 4294967295\n")).points == 4294967295U);
@@ -80,8 +80,8 @@ TEST_CASE("a field has at most 65,536 values, and a point at most a megabyte", "
   // 12 + 8 * 65536 + 4 * 65536 + 4 * 65533 = 2^20.
   CHECK(pcd(with_counts("65533")).row_bytes() == 1 << 20);
   check_says(pcd_says(with_counts("65534")), {"0 points of 1,048,580 bytes"});
-  check_says(pcd_says(with_counts("65537")), {"'65537' is not a number that can stand"});
-  check_says(pcd_says(with_counts("-1")), {"'-1' is not a number that can stand"});
+  check_says(pcd_says(with_counts("65537")), {"'65537' is not a number that is valid"});
+  check_says(pcd_says(with_counts("-1")), {"'-1' is not a number that is valid"});
   // A field of no values takes no bytes.
   CHECK(pcd(with_counts("0")).fields.size() == 5);
   CHECK(pcd(with_counts("0")).row_bytes() == 12 + 12 * 65536);

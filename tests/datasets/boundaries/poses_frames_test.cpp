@@ -41,7 +41,7 @@ TEST_CASE("a rotation may deviate by a thousandth", "[poses]") {
     return rigid_pose(matrix, "here");
   };
   CHECK((stretched(0.0004).matrix() - Eigen::Matrix4d::Identity()).norm() < 1e-14);
-  check_says(message_of<DataError>([&] { stretched(0.0006); }), {"no rotation", "0.0012"});
+  check_says(message_of<DataError>([&] { stretched(0.0006); }), {"not a rotation", "0.0012"});
 }
 
 TEST_CASE("times of poses are finite, and poses of one time are near each other", "[poses]") {

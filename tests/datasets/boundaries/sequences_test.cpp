@@ -100,7 +100,7 @@ const Layout& layout_named(const std::string& name) {
 }  // namespace
 
 TEST_CASE("shares of missing returns are told with the digits that they have", "[no-returns]") {
-  const std::string rest = " are no returns (NaN or at the origin) and are left out";
+  const std::string rest = " are missing returns (NaN or at the origin) and are left out";
   using Lines = std::vector<std::string>;
   CHECK(lines_of(66) == Lines{"1.5 % of the stored points" + rest});
   CHECK(lines_of(100) == Lines{"1.0 % of the stored points" + rest});
@@ -330,11 +330,11 @@ TEST_CASE("what is left out of the own vehicle is told once something was read",
   (void)one.scans->load(0);
   CHECK(
       left_out_lines(one) ==
-      std::vector<std::string>{"no point is of the own vehicle (nearer than 1.5 m) and left out"});
+      std::vector<std::string>{"no point is on the ego vehicle (nearer than 1.5 m) and left out"});
   const Sequence two = one_scan(folder, {9, 0, 0, 0, 1, 0, 0, 0});
   (void)two.scans->load(0);
   CHECK(left_out_lines(two) ==
-        std::vector<std::string>{"50.0 % of the stored points are of the own vehicle (nearer than "
+        std::vector<std::string>{"50.0 % of the stored points are on the ego vehicle (nearer than "
                                  "1.5 m) and are left out"});
 }
 

@@ -39,8 +39,8 @@ TEST_CASE("a range in sequence.json may lie within the first metre", "[settings]
 
 TEST_CASE("settings of a wrong kind are told", "[settings]") {
   check_says(settings_error(R"({"sensor": "estimate"})"), {"Did you mean 'estimated'?"});
-  check_says(settings_error(R"({"up": {"x": 0, "y": 0, "z": 1}})"), {"up", "is no direction"});
-  check_says(settings_error(R"({"up": [0, 1]})"), {"up", "is no direction"});
+  check_says(settings_error(R"({"up": {"x": 0, "y": 0, "z": 1}})"), {"up", "is not a direction"});
+  check_says(settings_error(R"({"up": [0, 1]})"), {"up", "is not a direction"});
   check_says(settings_error(R"({"drop_ego": true})"), {"drop_ego", "expected a text in quotes"});
 }
 

@@ -250,7 +250,7 @@ TEST_CASE("heads of LAS that cannot be are named", "[las]") {
     put(bytes, at, number);
     return las_error(bytes);
   };
-  check_says(las_error("LASS"), {"no LAS file"});
+  check_says(las_error("LASS"), {"not a LAS file"});
   check_says(las_error(good.substr(0, 300)), {"ends within its head, after 300 bytes"});
   check_says(las_error(good.substr(0, good.size() - 1)),
              {"announces 2 points of 30 bytes", "only 59 bytes follow", "after point 1"});

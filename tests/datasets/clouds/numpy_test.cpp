@@ -175,7 +175,7 @@ TEST_CASE("arrays of fields have their places, types and padding", "[numpy]") {
 
 TEST_CASE("what is no array of points is named", "[numpy]") {
   const std::string body = floats({1, 2, 3, 4});
-  check_says(npy_error("NUMPY"), {"is no .npy file"});
+  check_says(npy_error("NUMPY"), {"is not a .npy file"});
   check_says(npy_error(npy("'<f4'", "(1, 4)", body, 4)), {"version 4"});
   check_says(npy_error(kTwoPoints.substr(0, 40)), {"its head has", "truncated"});
   check_says(npy_error(kTwoPoints.substr(0, kTwoPoints.size() - 1)),
@@ -221,7 +221,7 @@ TEST_CASE("an archive gives its only array, or the one of a usual name", "[numpy
              {"holds the arrays a, b", "points or arr_0"});
   check_says(npy_error(zip_of({{"a.txt", "x"}}), "a.npz"), {"holds no array"});
   check_says(npy_error(zip_of({}), "a.npz"), {"holds no array"});
-  check_says(npy_error(zip_of({{"a.npy", "x"}}), "a.npz"), {"a.npz: a: is no .npy file"});
+  check_says(npy_error(zip_of({{"a.npy", "x"}}), "a.npz"), {"a.npz: a: is not a .npy file"});
 }
 
 TEST_CASE("cuts and flipped bytes of an archive give points or a DataError", "[numpy]") {
@@ -236,11 +236,12 @@ TEST_CASE("cuts and flipped bytes of an archive give points or a DataError", "[n
 
 TEST_CASE("a member of an archive that is too large for its bytes is not unpacked", "[numpy]") {
   const std::string bomb = zip_of({{"a.npy", std::string(4 << 20, '\0'), true}});
-  check_says(npy_error(bomb, "a.npz"), {"is no .npy file"});  // 1,000 times and a MiB are allowed.
+  check_says(npy_error(bomb, "a.npz"),
+             {"is not a .npy file"});  // 1,000 times and a MiB are allowed.
   std::string lies = zip_of({{"a.npy", kTwoPoints, true}});
   const std::size_t directory = lies.find("PK\x01\x02");
   lies.replace(directory + 24, 4, raw(0x7FFFFFFFU));
-  check_says(npy_error(lies, "a.npz"), {"unpacks to more than", "1,000 times"});
+  check_says(npy_error(lies, "a.npz"), {"decompresses to more than", "1,000 times"});
 }
 
 TEST_CASE("files of every format may be packed with gzip", "[gzip]") {
@@ -278,5 +279,5 @@ TEST_CASE("a gzip file may give a thousand times its bytes and a MiB", "[gzip]")
   const std::string large = deflated(std::string(kMany, '\0'), 31);
   REQUIRE(large.size() * 1000 + (1 << 20) < kMany);
   check_says(message_of<DataError>([&] { unpack_gzip(large, "a.gz"); }),
-             {"a.gz: unpacks to more than", "1,000 times"});
+             {"a.gz: decompresses to more than", "1,000 times"});
 }

@@ -220,7 +220,7 @@ TEST_CASE("a point layout that cannot be is named", "[records][layout]") {
   };
   check_says(says("x y"), {"'z' with one value is missing", "expected the fields"});
   check_says(says("x y z:f4[2]"), {"'z' with one value"});
-  check_says(says("x y z x"), {"'x' stands there twice"});
+  check_says(says("x y z x"), {"'x' occurs twice"});
   check_says(says("x y z t:f2"), {"'t:f2' has no known type"});
   for (const char* word : {"t:", "t:u3", "t:f8[", "t:f8[0]", "t:f8[65537]", "t:f8[1]x"}) {
     check_says(says(std::string("x y z ") + word), {"no known type"});

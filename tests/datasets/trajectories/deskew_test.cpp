@@ -158,7 +158,7 @@ TEST_CASE("times that cannot be used are errors that say why", "[deskew]") {
     return message_of<DataError>([&] { opened(folder); });
   };
   check_says(error({.field = "ring"}), {"0.pcd: --deskew needs the time", "found x, y, z, ring"});
-  check_says(error({.size = "8", .unit = 1e5}), {"is no time of a scan", "--point-time-unit"});
+  check_says(error({.size = "8", .unit = 1e5}), {"is not a time of a scan", "--point-time-unit"});
   check_says(error({.clock = kStart}), {"0.pcd", "same time"});  // Float32: all are one.
   write_drive(folder, {.type = "U", .unit = 1e-5});
   CHECK(error_of(opened(folder, "1e-5")) < 1e-3);

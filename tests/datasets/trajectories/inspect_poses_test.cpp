@@ -192,7 +192,7 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
   const auto findings = unopenable_findings(folder.text(), options);
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].what == "holds 4 poses for 3 scans");
-  // What cannot be looked at is no scan, and no finding either.
+  // What cannot be accessed is no scan, and no finding either.
   std::filesystem::create_symlink("3.bin", folder / "3.bin");
   CHECK_THROWS_AS(unopenable_findings(folder.text(), options), UnreadableError);
 }

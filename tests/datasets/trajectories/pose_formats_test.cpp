@@ -200,11 +200,12 @@ TEST_CASE("arrays of matrices are read", "[trajectories]") {
   }
   check_quarter(read("poses.npy", npy("(2, 3, 4)", rows_first, "True")), "npy", 1);
   check_quarter(read("poses.npy", npy("(2, 12)", columns, "True")), "npy", 1);
-  check_says(error_of(npy("(2, 4, 4)", pose), {}, "p.npy"), {"2 poses", "bytes of 1", "cut"});
+  check_says(error_of(npy("(2, 4, 4)", pose), {}, "p.npy"),
+             {"2 poses", "bytes for 1", "truncated"});
   check_says(error_of(npy("(4, 4)", pose), {}, "p.npy"), {"an array of 4 x 4"});
-  check_says(error_of(npy("(1000000000, 4, 4)", pose), {}, "p.npy"), {"bytes of 1"});
+  check_says(error_of(npy("(1000000000, 4, 4)", pose), {}, "p.npy"), {"bytes for 1"});
   check_says(error_of(npy("(1000000000000, 4, 4)", pose), {}, "p.npy"), {"no count"});
-  check_says(error_of("\x93NUMPY\x01", {}, "p.npy"), {"p.npy: is no .npy file"});
+  check_says(error_of("\x93NUMPY\x01", {}, "p.npy"), {"p.npy: is not a .npy file"});
 }
 
 TEST_CASE("poses from the world to the body are turned round", "[trajectories]") {
@@ -219,6 +220,6 @@ TEST_CASE("formats have names, and a wrong one is told", "[trajectories]") {
   check_says(message_of<UsageError>([] { read("p.txt", kIdentityRow, "tumm"); }),
              {"no pose format 'tumm'", "'tum'"});
   check_says(error_of(kIdentityRow, "tum"), {"line 1: 12 numbers", "format tum"});
-  check_says(error_of(std::string("\0\1\2", 3)), {"is no text"});
+  check_says(error_of(std::string("\0\1\2", 3)), {"neither text"});
   check_says(error_of("1 2 3 4 5\n"), {"line 1: 5 numbers", "`raymoval list pose-formats`"});
 }

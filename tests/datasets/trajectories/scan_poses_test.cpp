@@ -119,7 +119,7 @@ TEST_CASE("a sensor that stands needs one pose, or none on request", "[trajector
   folder.write("poses.txt", "1 0 0 4 0 1 0 0 0 0 1 0\n");
   const Sequence one = open_sequence(folder.text(), {});
   CHECK(positions(one) == std::vector<double>{4, 4, 4});
-  check_says(one.notes.at(0), {"one pose", "the sensor stands"});
+  check_says(one.notes.at(0), {"one pose", "the sensor is stationary"});
 }
 
 TEST_CASE("poses of a body are taken to its sensor", "[trajectories]") {

@@ -138,7 +138,7 @@ TEST_CASE("files of times hold numbers or the dates of KITTI's raw data", "[traj
   CHECK(read_stamp_file(nanoseconds).since_first.back() == 0.1);
   const auto mixed = folder.write("mixed.txt", "2011-09-26 13:02:25.9\n# none\n7.5\n");
   check_says(message_of<DataError>([&] { read_stamp_file(mixed); }),
-             {"mixed.txt: line 3", "'7.5' is no date"});
+             {"mixed.txt: line 3", "'7.5' is not a date"});
   const auto bad = folder.write("bad.txt", "2011-13-26 13:02:25.9\n");
   check_says(message_of<DataError>([&] { read_stamp_file(bad); }), {"bad.txt: line 1"});
 }
