@@ -11,7 +11,7 @@
 
 namespace raymoval {
 
-/// No vehicle is larger than this many metres.
+/// Largest distance along an axis, metres: no vehicle is larger.
 static constexpr double kFarthestSensorOrigin = 100.0;
 
 Eigen::Vector3d parse_sensor_origin(const std::string& text) {

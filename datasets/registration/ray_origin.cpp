@@ -19,7 +19,7 @@ constexpr std::size_t kMostLines = 2000;                               // per sc
 constexpr float kNearestNeighbour = 0.01F, kFarthestNeighbour = 1.5F;  // metres
 constexpr double kStraight = 0.98;  // cosine of the bend of a scan line between three points
 constexpr double kFits = 2.0;       // degrees from the cone at which a line does not fit
-/// Sine of the elevation below which a line says nothing: for an origin on the ground, all lines on
+/// Sine of the elevation below which a line is ignored: for an origin on the ground, all lines on
 /// the ground are level and keep their elevation.
 constexpr double kLevel = 0.05;
 constexpr double kFarthestOrigin = 3;  // metres
@@ -57,7 +57,7 @@ void add_lines(const Scan& scan, std::vector<Line>& lines) {
   }
 }
 
-/// Mean of how far the lines leave the cones around `origin`, each from 0 to 1.
+/// Mean misfit of the lines to the cones around `origin`, 0 to 1.
 double misfit(const std::vector<Line>& lines, const Vector3d& origin, double fits = kFits) {
   double sum = 0.0;
   for (const Line& line : lines) {
@@ -67,7 +67,7 @@ double misfit(const std::vector<Line>& lines, const Vector3d& origin, double fit
       continue;
     }
     const Vector3d rising = (Vector3d::UnitZ() - ray.z() * ray).normalized();
-    // Across the ray: what lies along it is the noise of ranges, and the slope of the surface.
+    // The part across the ray: the part along it is range noise and the slope of the surface.
     const Vector3d seen = (line.direction - line.direction.dot(ray) * ray).normalized();
     const double angle = std::asin(std::min(1.0, std::abs(seen.dot(rising))));
     sum += std::min(1.0, angle / (fits * kDegree));
@@ -103,7 +103,7 @@ RayOrigin find_ray_origin(const std::vector<Scan>& scans) {
   found.lines = lines.size();
   if (lines.empty()) return found;
   found.misfit_given = misfit(lines, Vector3d::Zero());
-  // Loose at first: half a metre beside the origin hardly any line fits closely.
+  // A loose limit at first: half a metre beside the origin, hardly any line fits closely.
   search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, found);
   search_grid(lines, 0.5, 3, 4.0 * kFits, found);
   for (const double span : {0.3, 0.2, 0.1, 0.05, 0.02}) search_grid(lines, span, 2, kFits, found);
