@@ -83,8 +83,8 @@ if [[ $(id -u) -ne 0 ]]; then
   as_root=(sudo)
 fi
 
-# The package lists are fetched only if apt does not know the packages from earlier. Each is asked for by
-# itself: apt-cache is content if it knows one of several, and takes g++ for a pattern.
+# The package lists are fetched only if apt does not have the packages in its lists. Each package is queried
+# separately: apt-cache succeeds if it finds one of several, and takes g++ for a pattern.
 known_to_apt() { apt-cache show --no-all-versions "${1//+/\\+}" >/dev/null 2>&1; }
 for package in "${missing[@]}"; do
   known_to_apt "$package" || [[ $optional == *" $package "* ]] || lists=old

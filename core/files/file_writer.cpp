@@ -45,7 +45,7 @@ Part part_like(const std::filesystem::path& target) {
   return part;
 }
 
-/// Not valid where the folder may not be read; what is in it can be written all the same.
+/// Not valid if the folder may not be read; files in it may still be writable.
 Descriptor opened_folder(const std::filesystem::path& folder) {
   Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.valid() || errno == EACCES) return opened;

@@ -30,9 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTickMs = 20;
 
-/// What the files below a folder take on the disk, with those on the same disk that `members` hold
-/// open and that have no name any more. Files come and go meanwhile: what cannot be looked at does
-/// not count.
+/// Size on the disk of the files below a folder, and of deleted files on the same disk that
+/// `members` hold open. Files may disappear meanwhile: a file that cannot be read does not count.
 double folder_size_mib(const std::filesystem::path& folder, const std::vector<pid_t>& members) {
   namespace fs = std::filesystem;
   constexpr auto kSkip = fs::directory_options::skip_permission_denied;
@@ -59,7 +58,7 @@ double folder_size_mib(const std::filesystem::path& folder, const std::vector<pi
   return mib;
 }
 
-/// Watches a running child until it ends or has to be ended.
+/// Watches a running child until it ends or must be ended.
 class ChildWatch {
  public:
   ChildWatch(const ChildSetup& setup, StartedChild child, const FosterParent& foster)

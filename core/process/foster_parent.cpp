@@ -65,7 +65,7 @@ void FosterParent::set_head(pid_t head) {
 std::vector<pid_t> FosterParent::foster_children() const {
   Families& all = families();
   const std::lock_guard lock(all.mutex);
-  // Who starts a family is counted before, so that its head is not taken for a foster child.
+  // A family is counted before its head starts, so that the head is not taken for a foster child.
   if (all.count > 1 || score_of("/proc/self") >= score_) return {};
   std::vector<pid_t> found;
   for (const pid_t child : children_of(::getpid())) {

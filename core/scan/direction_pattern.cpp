@@ -14,9 +14,9 @@
 namespace raymoval {
 namespace {
 
-constexpr std::size_t kFewest = 100;  ///< Directions that a pattern can be told from.
+constexpr std::size_t kFewest = 100;  ///< Least number of directions for a pattern.
 constexpr double kLeastStep = 0.02 * kDegree, kWidestStep = 3.0 * kDegree;
-constexpr double kReach = 2.0 * kWidestStep;  ///< How far partners are looked for.
+constexpr double kReach = 2.0 * kWidestStep;  ///< Search radius for partners.
 /// Visits of neighbours in all; keeps the time within a second for any number of points.
 constexpr double kMostVisits = 1e7;
 constexpr std::size_t kMostSamples = 4000;
@@ -135,8 +135,8 @@ class PartnerShares {
   double samples_ = 0.0;
 };
 
-/// Azimuth step as the median of what is near `step`, and how much the elevation of a beam
-/// changes from one column to the next.
+/// Azimuth step as the median of the steps near `step`, and the change of a beam's elevation from
+/// one column to the next.
 std::pair<double, double> refined(const std::vector<Directions>& scans, double step) {
   constexpr double kNear = 0.08;
   std::vector<double> steps, rises;
@@ -258,7 +258,7 @@ void find_beams(const std::vector<Gap>& gaps, double low, double high, Direction
   while (pattern.beams < kMostBeams) {
     double next = usual_rise(gaps, at, kSameBeam * rise);
     if (next >= kNoRise) {
-      // Nothing was seen above this beam in its columns: on to what was seen elsewhere.
+      // Its columns have no direction above this beam: continue with other columns.
       const auto above = first_from(gaps, at + kSameBeam * rise);
       if (above == gaps.end()) break;
       next = above->elevation - at;

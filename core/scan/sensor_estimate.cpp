@@ -47,7 +47,7 @@ double cut_of(const std::vector<double>& azimuths) {
   return (end - 0.5 * widest) / kArcs * kTurn - std::numbers::pi;
 }
 
-/// All directions of some scans and what is said of them together.
+/// All directions of some scans, and their common bounds.
 struct Seen {
   std::vector<Directions> scans;
   std::vector<double> azimuths, elevations;
@@ -89,8 +89,8 @@ bool near(double a, double b) {
   return std::abs(a - b) <= kPart * b;
 }
 
-/// The known sensor whose steps and field of view are those of `pattern`, if there is one. Where
-/// nothing stands above or below, less is seen than the sensor can see.
+/// The known sensor with the steps and field of view of `pattern`, if there is one. Without objects
+/// above or below, the observed field of view is smaller than the sensor's.
 std::optional<SensorModel> recognised(const DirectionPattern& pattern, double low, double high) {
   constexpr double kMargin = 2.0 * kDegree;
   if (pattern.kind != DirectionPattern::Kind::kColumns) return {};
