@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What is told in a log, as text.
+/// The text of a log.
 class Log {
  public:
   Log() : file_(std::tmpfile()), progress_(ProgressStyle::kLog, file_) {}

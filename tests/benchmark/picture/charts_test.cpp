@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Whether every element is closed in its place, and nothing that is markup stands in texts.
+/// Whether every element is closed in its place, and texts contain no markup.
 bool is_well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
@@ -213,7 +213,7 @@ TEST_CASE("Points of a sweep carry what they were set to, apart from each other"
 TEST_CASE("Rates over a parameter: each point is where its value and its rate say") {
   RunResults results = two_points();
   CHECK(sweep_chart(results, "erasor").empty());
-  // In the order of the values, whatever the order of the cells.
+  // In the order of the values, for any order of the cells.
   results.sweeps = {{"x", "m", {{"delay", "2"}}}, {"y", "m", {{"delay", "0.5"}}}};
   const std::string svg = sweep_chart(results, "erasor").svg();
   CHECK(is_well_formed(svg));

@@ -154,7 +154,7 @@ TEST_CASE("A cell that is there, right and whole is not run again, and anything 
   std::filesystem::remove(cell);
   CHECK(runs_of(false) == 1);
 
-  CHECK(runs_of(true) == 1);  // Removals are asked for and not there.
+  CHECK(runs_of(true) == 1);  // Removals are requested and missing.
   CHECK(runs_of(true) == 0);
   const auto removals = out / "cells/street/good-v/removals/000001.label";
   std::filesystem::resize_file(removals, std::filesystem::file_size(removals) - 4);
@@ -266,7 +266,7 @@ TEST_CASE("A suite of another name is refused, and replaces what is there if tha
   CHECK_FALSE(std::filesystem::exists(out / "cells/b"));
   CHECK_THAT(plan_suite(other, {.out = out}).refused, Contains("suite 'one'"));
 
-  // Whoever names sequence and method adds them to the suite.
+  // A named sequence and method are added to the suite.
   run_suite(two_scans_called("a", "odd"), {.out = out});
   CHECK(cells_in(out) == Names{"a/good:v", "a/odd:v"});
   CHECK(read_sealed(out / "run.json")["suite"]["name"] == "one");

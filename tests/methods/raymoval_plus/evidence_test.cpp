@@ -22,13 +22,14 @@ RangeImage image_of_return(float range) {
   return image;
 }
 
-/// Asks an image of all voxels.
+/// Observes all voxels in an image.
 void ask(const RangeImage& image, const Scan& scan, EvidenceMap& map) {
   const PosedImage posed{&image, scan.T_world_sensor, 0};
   add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
 }
 
-/// Decides on a voxel that 10 scans see through, some of them beside what is there.
+/// The verdict on a voxel with 10 free scans. No beam of the scans in `beside` passed at the height
+/// of the voxel's points.
 Verdict decided_with(std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
   Parameters parameters;
   parameters.height_scans = height_scans;
@@ -61,7 +62,7 @@ TEST_CASE("where some scans agree, those beside the voxel's points are not heard
   CHECK(decided_with(20, {}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 3, 0}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 4, 0}) == Verdict::kStatic);
-  // Since the last one that agrees, they are heard: what left may have been looked at from afar.
+  // After the last supporting scan, they count: an object that left may be observed from afar only.
   CHECK(decided_with(20, {0, 3, 3}) == Verdict::kDynamic);
   // Nor are those heard that agree beside them.
   CHECK(decided_with(20, {7, 4, 0}) == Verdict::kDynamic);
@@ -149,7 +150,7 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
     scan.points.push_back((scan.T_world_sensor.inverse() * beyond).cast<float>());
   }
   SensorModel sensor = Scanner{}.model();
-  // Steps that are the same both ways tell a sensor without even beams, of which nothing is beside.
+  // Equal steps both ways mean a sensor without even beams, for which `ScansBeside` stays 0.
   const bool has_beams = GENERATE(true, false);
   CAPTURE(above, is_tilted, has_beams);
   if (has_beams) sensor.azimuth_step = 0.25 * kDegree;
@@ -162,8 +163,8 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
 }
 
 TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands above or below") {
-  // A roof 1 m above the sensor and 18 m ahead. A scan sees farther 0.5 m below it. What is below
-  // the roof, if anything, is so many metres lower.
+  // A roof 1 m above the sensor and 18 m ahead. A scan has farther returns 0.5 m below it. An
+  // object below the roof, if any, is this many metres lower.
   struct Below {
     std::vector<double> metres;
     bool is_beside_column;
@@ -206,8 +207,8 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
 }
 
 TEST_CASE("a beam just below a roof that is seen from below is not heard") {
-  // A roof, 18 m ahead and as high above the sensor as `up`, and below it, if anything, what is
-  // so many metres lower. A scan sees farther, and passes the roof so much below it.
+  // A roof, 18 m ahead and `up` metres above the sensor; below it, perhaps, an object at a given
+  // distance. A scan has farther returns, which pass at a given distance below the roof.
   struct Roof {
     double passed_below, up, below;
     bool is_heard;

@@ -7,7 +7,7 @@ namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
 TEST_CASE("free scans make one half where they are as many as are needed, or as a run needs") {
-  Parameters parameters;  // 1 + 0.3 x agreeing scans have to be free, or four in a row.
+  Parameters parameters;  // 1 + 0.3 x supporting scans must be free, or four in a row.
   parameters.free_constant = 1.0;
   parameters.free_per_agree = 0.3;
   parameters.run_scans = 4;

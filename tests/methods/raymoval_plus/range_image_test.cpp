@@ -36,7 +36,7 @@ SensorModel sensor_with_beams() {
   return sensor;
 }
 
-/// The same sensor with beams up to so many degrees up and down.
+/// The same sensor with beams up to `degrees` up and down.
 SensorModel sensor_within(double degrees, double step = 0.5) {
   SensorModel sensor = Scanner{}.model();
   sensor.elevation_min = -degrees * kDegree;
@@ -45,7 +45,7 @@ SensorModel sensor_within(double degrees, double step = 0.5) {
   return sensor;
 }
 
-/// Every instruction set with every rule of what is seen through.
+/// Every instruction set with every rule for free observations.
 std::vector<std::pair<InstructionSet, SeenThrough>> sets_and_rules() {
   std::vector<std::pair<InstructionSet, SeenThrough>> all;
   for (const InstructionSet set : supported_instruction_sets()) {
@@ -151,16 +151,16 @@ TEST_CASE("what is above is so in the world, whichever way the sensor is turned"
 }
 
 TEST_CASE("a scan sees through a place beside what is nearer, in its own column of bins") {
-  // The place is in the middle of a bin, 20 m away. Somebody stands 10 m away in the column beside
-  // it. Without a gap, a return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from
-  // 1 m farther on.
+  // The place is in the middle of a bin, 20 m away. A person is 10 m away in the column beside it.
+  // Without a gap, a return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from 1 m
+  // farther on.
   const SensorModel sensor = Scanner{}.model();
   const AroundBin bin{sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree};
   const auto told = [&](const std::vector<Eigen::Vector3f>& points) {
     return image_of(points, sensor).observe(bin.at(20.0, 0.0, 0.0));
   };
   const Eigen::Vector3f beside = bin.at(10.0, 1.0, 0.0);
-  CHECK(told({beside}) == Observation::kOccluded);  // No beam goes on beyond.
+  CHECK(told({beside}) == Observation::kOccluded);  // No beam continues beyond.
   CHECK(told({beside, bin.at(21.3, 0.0, 0.0)}) == Observation::kOccluded);
   CHECK(told({beside, bin.at(21.4, 0.0, 0.0)}) == Observation::kFree);
   CHECK(told({bin.at(21.3, 0.0, 0.0)}) == Observation::kFree);  // The whole window is clear.
@@ -208,7 +208,7 @@ TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
   CHECK(told(20.5, {first, second}) == Observation::kFree);
   // The third return may lie before the others: 15 m are 1/90 more than 18 m.
   CHECK(told(20.5, {bin.at(15.0, 0.0, -4.0), first, second}) == Observation::kOccluded);
-  // Somebody who stands before the slope: 1/range falls by five times as much as behind him.
+  // A person before the slope: 1/range falls by five times as much as behind the person.
   CHECK(told(20.5, {bin.at(10.0, 0.0, -2.0), second, third}) == Observation::kFree);
   CHECK(told(20.5, {bin.at(14.0, 0.0, -2.0), second, third}) == Observation::kOccluded);
 }
@@ -236,8 +236,8 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
   // The beam is 1.7 m - 30.4 m * sin(3 degrees) = 0.11 m above the road, and 0.09 m at 30.8 m.
   CHECK(told(at(30.4, -3.0), {road, at(32.5, -3.0)}) == Observation::kFree);
   CHECK(told(at(30.8, -3.0), {road, at(32.5, -3.0)}) == Observation::kOccluded);
-  // What the lower beam meets beyond the place is no surface that goes on to it. Somebody hides
-  // the place who stands in the next column.
+  // The hit of the lower beam beyond the place is no surface that extends to it. A person in the
+  // next column occludes the place.
   const Eigen::Vector3f beside = (10.0 * direction(0.725 * kDegree, -3.0 * kDegree)).cast<float>();
   CHECK(told(at(26.0, -3.0), {beside, at(26.8, -5.0), at(32.5, -3.0)}) == Observation::kFree);
   // The beam may pass 0.02 m above the place: 0.044 degrees at 26 m.
@@ -265,9 +265,9 @@ TEST_CASE("a place above the highest beam is not seen through") {
   const RangeImage image = image_of({ceiling(14.9), ceiling(13.0)}, sensor);
   CHECK(image.observe(ceiling(14.9)) == Observation::kAgree);
   CHECK(image.observe(ceiling(16.5)) == Observation::kUnknown);
-  // What stands lower is seen through: the same beam passes it.
+  // A lower object is observed as free: the same beam passes it.
   CHECK(image.observe(Eigen::Vector3f(0.6F * ceiling(14.9))) == Observation::kFree);
-  // What is near the sensor has a larger window, and is told alike.
+  // A place near the sensor has a larger window and the same result.
   const Eigen::Vector3f above = (2.2 * direction(0.0, 16.5 * kDegree)).cast<float>();
   CHECK(image.observe(above) == Observation::kUnknown);
   std::vector<ObservedPlace> observed;
@@ -394,7 +394,7 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
       CHECK(seen({point}) == Observation::kAgree);
     }
   }
-  // Somebody half a metre before it hides it at whatever height he is hit.
+  // A person half a metre before it occludes it, at any height of the hit.
   const Eigen::Vector3f before = (2.3 * direction(0.0, elevation - 1.5 * kDegree)).cast<float>();
   CHECK(seen({before}) == Observation::kOccluded);
   // Where the ground is met, beams that pass lower or higher do not see through it, though they

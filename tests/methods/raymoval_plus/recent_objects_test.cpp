@@ -12,8 +12,8 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
-/// A post of 20 points, 1.9 m high and 0.2 m wide, that drives off by 1.5 m a scan, at 15 m/s.
-/// Nothing is known of where it stands; it is seen later that nothing is left where it stood.
+/// A post of 20 points, 1.9 m high and 0.2 m wide, that drives off by 1.5 m per scan, at 15 m/s.
+/// Its places are unknown at first; later scans observe the places that it left as free.
 class DrivingPost {
  public:
   explicit DrivingPost(int recent_scans = 30, const DirectionSteps& steps = {})
@@ -42,7 +42,7 @@ class DrivingPost {
       map.set_verdict_in(map.find_slot(map.index(voxel), cursor), Verdict::kDynamic);
     }
   }
-  /// The clusters of a scan that are marked, by what is known now.
+  /// The marked clusters of a scan, by the present evidence.
   [[nodiscard]] std::vector<int> marked(std::size_t scan) {
     recent_.judge(in_map_.map, RunContext{});
     return recent_.marked(scan, RunContext{});
@@ -151,7 +151,7 @@ TEST_CASE("what was judged last holds for objects that are no longer recent") {
       if (i >= 2) some->leave(i - 2);
     }
     CHECK_FALSE(late.is_marked(i));        // Forgotten before it left anything.
-    CHECK(post.is_marked(i) == (i >= 4));  // Its track goes back to the first place.
+    CHECK(post.is_marked(i) == (i >= 4));  // Its track reaches the first place.
   }
 }
 

@@ -67,7 +67,7 @@ TEST_CASE("under a roof the ground rises no more than the slope allows") {
       for (int k = 0; k < 3; ++k) points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0 : 2);
     }
   }
-  const Terrain terrain = terrain_of(points, 0.0);  // Only what is near has a say.
+  const Terrain terrain = terrain_of(points, 0.0);  // Only near points count.
   CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
   // 0.4 m and 1.2 m beyond the last column of ground it may rise by 0.08 m and 0.24 m; farther away
   // that column says nothing.
