@@ -70,7 +70,7 @@ holds "masks are those of the upright world" diff <(digests near) <(digests down
 holds "up is recorded" grep -q '"up": "-y"' run_down/cells/suburb/raymoval_plus-offline/cell.json
 expect 0 "up is -y of the world (estimated" clean down -o down.ply --method octomap
 
-# What a user says stands above it, and makes other cells.
+# The user's value takes precedence, and gives other cells.
 expect 2 "--up sideways: expected an axis of the world" inspect near --up sideways
 "$raymoval" inspect near --up -y --quiet >contradicted.txt
 holds "a wrong --up is a finding" grep -q '^finding up-contradicted' contradicted.txt

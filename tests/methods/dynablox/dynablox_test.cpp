@@ -10,8 +10,8 @@ using namespace raymoval::dynablox_method;
 
 namespace {
 
-/// A corridor from x = -2 to 14, 4 m wide, its floor 1.6 m below a sensor that stands still and
-/// looks ahead.
+/// A corridor from x = -2 to 14, 4 m wide, its floor 1.6 m below a stationary sensor that faces
+/// ahead.
 class Corridor {
  public:
   explicit Corridor(double length = 14.0)
@@ -87,8 +87,8 @@ TEST_CASE("dynablox: a person moves from the first scan in space that was free f
 }
 
 TEST_CASE("dynablox: what is first seen later was never occupied") {
-  // A curtain at 3 m in scans 0 to 7. Scan 8 shows free space behind it, which is looked at when
-  // scan 9 has been judged: ever free at once.
+  // A curtain at 3 m in scans 0 to 7. Scan 8 shows free space behind it, which is evaluated after
+  // scan 9 is judged: ever free at once.
   const auto share_in = [](int scan) {
     Corridor corridor;
     for (int i = 0; i < 8; ++i) corridor.see({{3.0, -2.0, -1.6}, {3.3, 2.0, 2.0}});

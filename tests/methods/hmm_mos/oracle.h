@@ -47,7 +47,7 @@ class Oracle {
   bool has_threshold = false;
 
   std::map<Cell, Believed> map;
-  std::map<Cell, State> last_known;  ///< Of what is in the map, or was.
+  std::map<Cell, State> last_known;  ///< Of cells that are or were in the map.
 
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& world) const;
   /// The voxels on the line of whole numbers between two, both ends included.
