@@ -86,10 +86,10 @@ KeptArena& kept_arena() {
   return kept;
 }
 
-/// Of the loop that this thread is in: the threads of the kept arena if it runs there, else 0.
+/// Threads of the kept arena if the loop of this thread runs there, else 0.
 thread_local int threads_around = 0;
 
-/// What a chunk is run in.
+/// Sets `threads_around` while a chunk runs.
 class ChunkScope {
  public:
   explicit ChunkScope(int threads) : outer_(threads_around) { threads_around = threads; }

@@ -21,7 +21,7 @@ std::string host_name() {
 }
 
 /// Whether the system's error number means that a file system has no locks at all. ENOLCK does not:
-/// a lock server that cannot be asked now may have given the lock to somebody before.
+/// a lock server that does not respond may have given the lock to another process before.
 bool means_no_locks(int reason) {
   return reason == ENOSYS || reason == ENOTSUP || reason == EINVAL;
 }

@@ -61,7 +61,7 @@ bool locks(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 
-/// What became of a part before it was locked.
+/// The state of a part before it was locked.
 enum class Kept {
   kYes,
   kLost,     ///< Another process removed it as abandoned.
@@ -84,7 +84,7 @@ void discard(Part& part) {
   errno = reason;
 }
 
-/// Nothing of a folder that cannot be listed: what was left there stays.
+/// The entries of a folder; none if it cannot be listed, so that its old parts stay.
 std::vector<fs::path> entries_or_none(const fs::path& folder) {
   try {
     return entries_of(folder);
@@ -114,7 +114,7 @@ bool is_part_of(const fs::path& part, const fs::path& target) {
   return name_of_part(part) == without_slash(target).filename();
 }
 
-/// Removes what dead processes left of `target` before this process first asked.
+/// Removes parts of `target` that dead processes left before the first call for its folder.
 void remove_earlier_parts(const fs::path& target) {
   for (const fs::path& part : earlier_parts(folder_of(target))) {
     if (is_part_of(part, target)) remove_abandoned_part(part);

@@ -44,7 +44,7 @@ double folder_size_mib(const std::filesystem::path& folder, const std::vector<pi
       mib += size_mib(status);
     }
   } catch (const fs::filesystem_error&) {
-    // A folder went away; the next look sees what is left.
+    // A folder disappeared; the next measurement has the rest.
   }
   struct stat own {};
   if (::stat(folder.c_str(), &own) != 0) return mib;
@@ -93,7 +93,7 @@ class ChildWatch {
   }
 
  private:
-  /// Whether it has ended. It stays a zombie, so that its number is not used again.
+  /// Whether the child has ended. It stays a zombie, so that its number is not used again.
   [[nodiscard]] bool has_ended() const {
     siginfo_t info{};
     const int got = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
@@ -126,7 +126,7 @@ class ChildWatch {
   void stop(ChildEnd::Kind kind) {
     stopped_ = true;
     end_.kind = kind;
-    note_output();  // Not what the child says while its descendants are ended.
+    note_output();  // Without output while its descendants are ended.
     family_.end();
   }
 

@@ -87,7 +87,7 @@ void FamilyMemory::follow_clock() {
   constexpr long kSecond = 1'000'000'000;
   const auto since = std::chrono::duration_cast<nanoseconds>(Pace::Clock::now() - last_look_);
   last_look_ += since;
-  // What the clock would have said at the last look.
+  // The expected time of the clock at the last measurement.
   timespec then = clock_();
   then.tv_sec -= since.count() / kSecond;
   then.tv_nsec -= since.count() % kSecond;

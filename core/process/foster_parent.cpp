@@ -22,7 +22,7 @@ constexpr int kHighestScore = 1000;
 struct Families {
   std::mutex mutex;
   int count = 0;
-  int was_foster_parent = 0;  ///< Whether this process was one before the first of them.
+  int was_foster_parent = 0;  ///< Whether this process was one before the first family.
   std::set<pid_t> heads;
 };
 

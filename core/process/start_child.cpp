@@ -41,7 +41,7 @@ std::string new_mark() {
                      std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
-/// The environment of this process with that of the child on top.
+/// The environment of this process, with the child's variables replacing equal names.
 std::vector<std::string> environment_of(const ChildSetup& setup, const std::string& mark) {
   auto added = setup.environment;
   const char* marks = std::getenv(kFamilyVariable);
@@ -84,7 +84,7 @@ struct Prepared {
         spare(descriptors.size(), -1) {}
 };
 
-/// What this process blocks or ignores is not the child's.
+/// Resets signals that this process blocks or ignores.
 void reset_signals() {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
   sigset_t none;

@@ -17,7 +17,7 @@ constexpr double kMostInfinite = 0.01;
 /// The sensor is hardly ever so near to that origin.
 constexpr float kAtZero = 1e-3F;
 
-/// What a stored point is.
+/// The kind of a stored point.
 enum class PointKind { kReturn, kNoReturn, kInfinite };
 
 PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {

@@ -62,7 +62,7 @@ expect 0 "cloud of" score --sequence near --cloud near.pcd --quiet
 grep -E ' (PR|RR) ' out.txt >near.txt  # Not within `holds`, which writes out.txt itself.
 holds "the map scores as near by" diff far.txt near.txt
 
-# Axes: y down. It is seen, said and recorded, and every mask is the same.
+# Axes: y down. This is detected, reported and recorded, and every mask is the same.
 expect 0 "note world-axes: poses.txt" inspect down --quiet
 expect 0 "suburb: up is -y of the world (estimated" run --sequence down --name suburb "${methods[@]}" --out run_down
 digests() { grep -h '"digest"' "run_$1"/cells/*/*/cell.json; }

@@ -42,7 +42,7 @@ else
 fi
 
 # --- completion ---
-# offered LINE: what bash offers at the end of it, a word a line.
+# offered LINE: the completions of bash at its end, one word per line.
 offered() (
   source "$shell/raymoval.bash"
   COMP_LINE=$1 COMP_POINT=${#1} COMP_WORDBREAKS=$' \t\n"\'><=;|&(:'

@@ -77,7 +77,7 @@ for signal in INT TERM HUP; do
   holds "and no sequence" test ! -e drive
 done
 
-# A second signal does not wait for anybody: here a method that never looks whether it shall end.
+# A second signal ends the program at once: here a method never checks for cancellation.
 begin run --sequence street --frames 0:9 "${slow[@]}" --only '*/comb*' --in-process --out alone
 wait_for_name alone/cells/street/comb-default_
 kill -TERM $process
@@ -100,7 +100,7 @@ wait_for_name 'map.pcd.*.part'
 kill -TERM "$(child_of $process)" $process
 ends 143 "clean whose child was ended, too"
 nothing_left "it"
-# For the child alone: that is a failure, and nobody asked the program to end.
+# A signal to the child alone is a failure: the program itself was not cancelled.
 begin "${clean[@]}"
 wait_for_name 'map.pcd.*.part'
 kill -TERM "$(child_of $process)"

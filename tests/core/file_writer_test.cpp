@@ -174,7 +174,7 @@ TEST_CASE("What is being made is told from what a dead process left") {
   for (const auto& part : left) {
     const Descriptor lock = take_abandoned_part(part);
     CHECK(lock.valid());
-    CHECK_FALSE(take_abandoned_part(part).valid());  // Somebody sees to it already.
+    CHECK_FALSE(take_abandoned_part(part).valid());  // `lock` holds it.
   }
   // Parts of another machine, whose state is unknown, and parts of another name are kept.
   std::string other = left[0].string();

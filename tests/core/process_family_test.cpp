@@ -105,7 +105,7 @@ TEST_CASE("families that run at once leave each other alone") {
   CHECK(napping_become(1));
   for (int i = 0; i < 5; ++i) CHECK(run_child(shell("exit 5")).code == 5);
   CHECK(napping().size() == 1);
-  // What cannot be told apart meanwhile ends with the last family.
+  // Processes of unknown family are ended with the last family.
   CHECK(run_child(limited(daemon_in(left) + "exit 6", 60)).code == 6);
   folder.write("go", "");
   first.join();

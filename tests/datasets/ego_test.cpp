@@ -127,7 +127,7 @@ TEST_CASE("where nothing goes along with the sensor nothing is left out", "[ego]
 }
 
 TEST_CASE("the ground before a sensor that looks down is no vehicle", "[ego]") {
-  // Somebody walks 16 m; the sensor in the hand looks down by 35 degrees, and up and down a little.
+  // A person walks 16 m; the hand-held sensor is pitched down by 35 degrees and nods a little.
   SimulationOptions options;
   options.scene = "walk";
   options.sensor = "vlp16";

@@ -63,7 +63,7 @@ bool suffices(std::size_t bytes, const std::function<void()>& read) {
   return WEXITSTATUS(status) == 0;
 }
 
-/// The sanitizers take address space for themselves, as if there were no end of it.
+/// Sanitizers reserve very much address space.
 bool can_be_limited() {
   return address_space() < (std::size_t{1} << 40);
 }

@@ -166,7 +166,7 @@ TEST_CASE("A time at its band is no worse, and one beyond says by how much") {
   CHECK(compared_one(run, reference, {{}, 2.0}).worse ==
         std::vector<std::string>{"s / a: 3.00 times the reference (375.0 ms per scan, was 125.0), "
                                  "more than 2 times"});
-  reference.seconds_per_scan = 0.0;  // Nothing can be told of it.
+  reference.seconds_per_scan = 0.0;  // No comparison is possible.
   CHECK(compared_one(run, reference).times.empty());
 }
 

@@ -131,7 +131,7 @@ bool starts(const char* text, const char* begin) {
   return strncmp(text, begin, strlen(begin)) == 0;
 }
 
-/// Whether a path is none of the system's.
+/// Whether a path does not belong to the system.
 bool is_ours(const char* path) {
   if (starts(path, "/dev/shm/")) return true;
   for (const char* foreign : {"/proc", "/sys", "/dev", "/usr", "/lib", "/lib64", "/etc", "/run"}) {

@@ -57,8 +57,7 @@ class KeptEvidence : public EvidenceSink {
 
 }  // namespace
 
-// Where the world's origin lies and which way its axes point is nobody's business: what a method
-// answers may depend on it only through the lattice of its voxels.
+// A method's answer may depend on the world's origin and axes only through its lattice of voxels.
 TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
   const toy::World world = toy::street(8);
   for (const ConfiguredMethod& method : all_methods()) {

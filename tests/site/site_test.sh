@@ -13,7 +13,7 @@ export PYTHONDONTWRITEBYTECODE=1
 
 stage=(python3 "$source_folder/scripts/site/stage.py" --program "$raymoval" --out "$work/staged")
 holds "every page is in a section" "${stage[@]}"
-# A page that nobody put into a section, and a section whose page is gone.
+# A page that is in no section, and a section whose page is missing.
 in_sections() { (cd "$source_folder/scripts/site" && python3 -c "
 import pathlib, reference, stage
 pages = stage.pages_of(pathlib.Path('$source_folder')) + list(reference.GENERATED)

@@ -26,7 +26,7 @@ struct McapMessagePlace {
   static McapMessagePlace of(std::uint64_t number);
 };
 
-/// What a MCAP file holds, without its messages.
+/// The contents of a MCAP file, without its messages.
 struct McapContents {
   MessageTable messages;                        ///< Places are those of `McapMessagePlace`.
   std::vector<std::uint64_t> chunks;            ///< Where the record of each chunk begins.

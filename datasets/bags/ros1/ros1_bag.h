@@ -16,7 +16,7 @@
 
 namespace raymoval {
 
-/// What a ROS 1 bag holds, without its messages.
+/// The contents of a ROS 1 bag, without its messages.
 struct Ros1Contents {
   std::map<std::uint32_t, std::size_t> topics;  ///< Topic in `messages` of each connection.
   std::vector<Ros1Chunk> chunks;                ///< In the order of the file.

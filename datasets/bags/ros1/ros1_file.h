@@ -15,7 +15,7 @@ namespace raymoval {
 /// The line that a ROS 1 bag begins with.
 inline constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
 
-/// What a record is, as its field "op" says.
+/// The type of a record, in its field "op".
 enum class Ros1Op : std::uint8_t {
   kMessage = 0x02,
   kBagHeader = 0x03,

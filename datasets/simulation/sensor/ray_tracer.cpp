@@ -56,7 +56,7 @@ void trace_eight(const int* valid, RTCScene scene, TraceOptions& options, RTCRay
 }
 
 constexpr std::size_t kPacket = 8;
-constexpr double kNearest = 0.01;  // metres; nothing is nearer to a sensor
+constexpr double kNearest = 0.01;  // metres; no surface is nearer to a sensor
 
 /// Checks for errors since the last check; after an error, Embree continues with a part of the
 /// scene.

@@ -143,7 +143,7 @@ TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats")
   // makes an axis from 0.7; x is at 64 + 460 * (2.69897 - 1) / 2 = 454.76 and 48 + 330 - 0.02 / 0.3
   // * 330 = 356.
   CHECK_THAT(svg, Contains("cx=\"454.76\" cy=\"356\""));
-  // y is faster and better: nobody else is on the line.
+  // y is faster and better: no other method is on the line.
   CHECK_THAT(svg, Contains("class=\"front\" points=\"294,48 \""));
 }
 

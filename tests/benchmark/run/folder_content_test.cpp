@@ -176,7 +176,7 @@ TEST_CASE("A run that is added to a folder leaves what the folder has, and is ne
   CHECK(merged.sequences[0].data.fingerprint == "f");
   CHECK(merged.sequences[2].data.fingerprint.empty());
   CHECK_FALSE(merged.controls);
-  // Nobody asked for the others.
+  // The others were not requested.
   CHECK(titles_of(merged.cells) == Words{"town / a", "town / b", "town / c", "highway / a",
                                          "highway / b", "street / b", "street / c"});
   asked.suite = "suite";

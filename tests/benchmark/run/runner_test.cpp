@@ -232,7 +232,7 @@ TEST_CASE("A method or a sequence that is added to a run folder leaves the other
   run_suite(two_scans_called("b", "good"), {.out = out});
   CHECK(cells_in(out) == Names{"a/good:v", "a/throws:v", "b/good:v"});
   CHECK_THAT(read_text(out / "table.md"), Contains("### a\n") && Contains("### b\n"));
-  // A cell that nobody asked for is not missing.
+  // A cell that was not requested is not missing.
   CHECK_FALSE(read_sealed(out / "results.json").contains("missing"));
   const ordered_json record = read_sealed(out / "run.json");
   CHECK(record["places"].size() == 2);

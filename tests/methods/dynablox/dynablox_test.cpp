@@ -21,7 +21,7 @@ class Corridor {
                {{length, -2.5, -1.9}, {length + 0.5, 2.5, 2}}},
         world(scanner(length)) {}
 
-  /// Scans in which nobody is there.
+  /// Scans without a person.
   void pass(int scans) {
     for (int i = 0; i < scans; ++i) scan(boxes_);
   }
@@ -80,7 +80,7 @@ TEST_CASE("dynablox: a person moves from the first scan in space that was free f
   for (int i = 0; i < 4; ++i) corridor.see_person(5.0 + 0.3 * i, -0.3);
   const MaskStore masks = corridor.masks(Parameters{});
   CHECK(corridor.share(masks, 4) == 0.0);
-  CHECK(corridor.share(masks, 5) > 0.3);  // Where nobody was in scan 4.
+  CHECK(corridor.share(masks, 5) > 0.3);  // No person was there in scan 4.
   CHECK(corridor.share(masks, 7) > 0.9);
   CHECK(toy::removed_share(corridor.world, masks, 0, 0, 7) < 0.05);
   CHECK(toy::removed_share(corridor.world, masks, 3, 0, 7) == 0.0);

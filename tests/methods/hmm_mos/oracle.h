@@ -36,7 +36,7 @@ class Oracle {
   void add(const Scan& scan);
   /// The online answer for the scan that was added last.
   [[nodiscard]] Mask mask(const Scan& scan) const;
-  /// Whether a point's voxel was free when something was last known of it.
+  /// Whether the last known state of a point's voxel was free.
   [[nodiscard]] Mask last_free(const Scan& scan) const;
 
   // What the steps found out about the last scan.

@@ -75,7 +75,7 @@ TEST_CASE("peopleremover: with diff, a voxel of the window also stops the beam",
   const ListedScans scans = ListedScans().row({3.5}).row({8.5}).row({4.5}).row({4.5}).row({6.5});
   CHECK(verdicts(scans) == Verdicts{{1}, {0}, {1}, {1}, {1}});
   // Scan 1: stopped in 3 (scan 0). Scans 2 and 3 free voxel 3. Scan 4 frees 3, is stopped in 4
-  // (scan 3 in its window). Voxel 6: nobody gets there.
+  // (scan 3 in its window). Voxel 6: no beam gets there.
   CHECK(verdicts(scans, {{"diff", std::int64_t{1}}, {"subvoxel_accuracy", false}}) ==
         Verdicts{{1}, {0}, {0}, {0}, {0}});
 }

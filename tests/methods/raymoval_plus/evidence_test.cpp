@@ -64,7 +64,7 @@ TEST_CASE("where some scans agree, those beside the voxel's points are not heard
   CHECK(decided_with(20, {0, 4, 0}) == Verdict::kStatic);
   // After the last supporting scan, they count: an object that left may be observed from afar only.
   CHECK(decided_with(20, {0, 3, 3}) == Verdict::kDynamic);
-  // Nor are those heard that agree beside them.
+  // Supporting scans without a beam at that height do not count either.
   CHECK(decided_with(20, {7, 4, 0}) == Verdict::kDynamic);
   CHECK(decided_with(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few agree.
   CHECK(decided_with(20, {0, 4, 0}, 0) == Verdict::kDynamic);

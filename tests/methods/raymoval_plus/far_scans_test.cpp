@@ -30,7 +30,7 @@ int free_scans(const std::vector<Said>& story, const Parameters& parameters = {}
   return evidence.free_scans;
 }
 
-/// Step 4's rule, looked up in the whole story.
+/// The rule of step 4, computed from all observations.
 int free_scans_of_rule(const std::vector<Said>& story) {
   int agree = 0, heard = 0;
   std::size_t first = story.size(), last = 0;

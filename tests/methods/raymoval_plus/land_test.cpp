@@ -34,7 +34,7 @@ TEST_CASE("land rises as a plane does, whatever stands on it") {
   const std::vector<float> bare = ground_of(plane);
   CHECK(land_rise(bare, kLandSide, 0)[kAtMiddle] == Approx(0.2).margin(1e-4));
   CHECK(land_rise(bare, kLandSide, 1)[kAtMiddle] == Approx(-0.1).margin(1e-4));
-  // The edges of a low thing cancel out, and those of a house do not count.
+  // The edges of a low object cancel out, and the edges of a house do not count.
   for (const float high : {0.15F, 3.0F}) {
     const std::vector<float> with_box = ground_of([&](int x, int y) {
       const bool is_box = x >= 25 && x < 31 && y >= 27 && y < 38;

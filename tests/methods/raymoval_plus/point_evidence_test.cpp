@@ -39,7 +39,7 @@ TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
   scan.scan.points.resize(6);
   scan.voxel = {seen_through, untouched, untouched, kNone, kNone, kNone};
   scan.ground_voxel = {kNone, kNone, kNone, kNone, false_ground, false_ground};
-  // Points 0 and 1 are one object of which one point is dynamic; the others are none.
+  // Points 0 and 1 are one object of which one point is dynamic; other points are no object.
   scan.high_points = {0, 1};
   scan.cluster_of = {0, 0};
   scan.clusters.resize(1);
@@ -53,7 +53,7 @@ TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
   CHECK(evidence[0] == Approx(0.5 + 0.25 * 0.75 + 0.25 * 0.5));
   CHECK(evidence[1] == Approx(0.25 * 0.5));
   CHECK(evidence[2] == Approx(0.5));  // Nothing speaks for it but what was decided.
-  CHECK(evidence[3] == 0.0F);         // Ground that nobody asked about.
+  CHECK(evidence[3] == 0.0F);         // Ground, which is not evaluated.
   CHECK(evidence[4] == Approx(0.5 + 0.5 * 0.8));
   CHECK(evidence[5] == 0.0F);  // Ground that stays.
 }

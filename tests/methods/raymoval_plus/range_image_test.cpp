@@ -29,7 +29,7 @@ RangeImage image_of(std::vector<Eigen::Vector3f> points,
   return image;
 }
 
-/// The same sensor, of which it is known that it has beams.
+/// The same sensor with known beams.
 SensorModel sensor_with_beams() {
   SensorModel sensor = Scanner{}.model();
   sensor.beams = 41;
@@ -426,7 +426,7 @@ TEST_CASE("a sensor has even beams if they are known, or its steps differ") {
   for (const std::string& name : sensor_model_names()) {
     CHECK(has_even_beams(sensor_model_named(name)));
   }
-  CHECK_FALSE(has_even_beams(SensorModel{}));  // Nothing is known of it.
+  CHECK_FALSE(has_even_beams(SensorModel{}));  // A model without values.
 }
 
 TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders",

@@ -55,7 +55,7 @@ class DrivingPost {
   }
 
  private:
-  /// Adds a point of which nothing is known, and returns its voxel.
+  /// Adds a point without evidence, and returns its voxel.
   std::uint32_t add(const Eigen::Vector3d& point, SegmentedScan& scan) {
     const std::uint32_t voxel = in_map_.add(point);
     in_map_.map.evidence(voxel).agree_scans = 1;

@@ -189,7 +189,7 @@ TEST_CASE("a pole stays before which somebody came or left for some scans") {
 }
 
 TEST_CASE("what waits is in its place however much of it is in sight") {
-  // A van waits for 40 scans. At first 2.8 m of it are in sight, then less and less behind its
+  // A van waits for 40 scans. At first 2.8 m of it are visible, then less and less behind its
   // front, until that is 0.4 m deep; then it drives off. Its centre shifts by 1.2 m meanwhile.
   for (const float agree_scans : {60.0F, 95.0F}) {
     Scans scans;
@@ -281,7 +281,7 @@ TEST_CASE("an object that did not move, or changed its size, marks nothing") {
 }
 
 TEST_CASE("a fast object is followed from its first step on if that is allowed") {
-  // A van of 4 m drives 1.5 m a scan, which no slow thing does between two scans.
+  // A van of 4 m drives 1.5 m per scan, farther than any slow object.
   Scans scans;
   for (int i = 0; i < 8; ++i) {
     scans.push_back({walker(0, i < 5 ? 18 : 0, 1.0)});
