@@ -16,8 +16,8 @@ using namespace raymoval::raymoval_plus_method;
 namespace {
 
 constexpr int kScans = 10;
-/// The points of a scan of `Street`: those of the walker, of the thing that is dynamic in part, the
-/// two points of ground at its foot, and the ground below these.
+/// The points of a scan of `Street`: the walker, the partly dynamic object, the two points of
+/// ground at its foot, and the ground below these.
 constexpr std::size_t kWalker = 0, kFoot = 38, kBeside = 39, kPoints = 42;
 
 /// A scan's points; dynamic points come first in each object. The ground is at z = 0.
@@ -35,8 +35,8 @@ std::vector<Eigen::Vector3d> points_of(int scan) {
   return points;
 }
 
-/// Whether scans saw through a point's voxel. Nothing is known of where the walker is in the last
-/// three scans.
+/// Whether scans observed a point's voxel as free. There are no observations of the walker's place
+/// in the last three scans.
 bool is_seen_through(int scan, std::size_t point) {
   return point < 20 ? scan < 7 : point < 26;
 }

@@ -45,7 +45,7 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
                           std::uint16_t trailing = 0) {
     return decide({free, agree, leading, trailing}, Parameters{});
   };
-  // Needed: 1 + 0.3 x the scans that agree.
+  // Needed: 1 + 0.3 x the supporting scans.
   CHECK(decided(1, 0) == Verdict::kDynamic);
   CHECK(decided(3, 10) == Verdict::kStatic);
   CHECK(decided(4, 10) == Verdict::kDynamic);
@@ -58,7 +58,7 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
 }
 
 TEST_CASE("where some scans agree, those beside the voxel's points are not heard between them") {
-  // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
+  // Needed of the 10 free scans: 1 + 0.3 x 20.
   CHECK(decided_with(20, {}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 3, 0}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 4, 0}) == Verdict::kStatic);
@@ -66,17 +66,17 @@ TEST_CASE("where some scans agree, those beside the voxel's points are not heard
   CHECK(decided_with(20, {0, 3, 3}) == Verdict::kDynamic);
   // Supporting scans without a beam at that height do not count either.
   CHECK(decided_with(20, {7, 4, 0}) == Verdict::kDynamic);
-  CHECK(decided_with(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided_with(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few supporting scans.
   CHECK(decided_with(20, {0, 4, 0}, 0) == Verdict::kDynamic);
 }
 
 TEST_CASE("where many scans agree, those beside the whole column are not heard at all") {
-  // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
+  // Needed of the 10 free scans: 1 + 0.3 x 20.
   CHECK(decided_with(20, {0, 0, 0, 2, 1}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 0, 0, 2, 2}) == Verdict::kStatic);
   CHECK(decided_with(20, {0, 2, 0, 1, 1}) == Verdict::kStatic);
   CHECK(decided_with(20, {0, 0, 0, 2, 2}, 6) == Verdict::kStatic);
-  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few supporting scans.
   CHECK(decided_with(20, {0, 0, 0, 2, 2}, 0) == Verdict::kDynamic);
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("scans beside the whole column count before the first and since the la
   CHECK(evidence.beside.column_since == 3);
   CHECK(evidence.trailing_free == 1);
   add(kAgree, false);
-  CHECK(evidence.beside.column_since == 0);  // All were between scans that agree, ...
+  CHECK(evidence.beside.column_since == 0);  // All were between supporting scans, ...
   CHECK(evidence.beside.free_between_agreeing == 3);
   CHECK(evidence.beside.column_before == 2);  // ... but not these.
   CHECK(evidence.free_scans == 7);
@@ -125,8 +125,8 @@ TEST_CASE("scans that pass beside a voxel's points are counted by themselves as 
 
 TEST_CASE("a beam above or below points passes beside them, one at their height does not") {
   // The top of a van, 1 m above the sensor and 20 m ahead, whose points are 1 cm above and below
-  // their mean, and its side; and a scan that sees farther in some beams: so high above that mean,
-  // metres.
+  // their mean, and its side; and a scan with farther returns in some beams, at these heights above
+  // that mean, metres.
   struct Beams {
     std::vector<double> above;
     bool is_beside;
@@ -134,7 +134,7 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
   const auto [above, is_beside] =
       GENERATE(Beams{{-0.13}, true}, Beams{{-0.09}, false}, Beams{{0.0}, false},
                Beams{{0.09, -0.13}, false}, Beams{{0.13, -0.13}, true});
-  const bool is_tilted = GENERATE(false, true);  // A sensor that looks down a little sees the same.
+  const bool is_tilted = GENERATE(false, true);  // A slightly pitched sensor gives the same.
   MapPoints points;
   EvidenceMap& map = points.map;
   const auto roof = points.add({20.02, 0.02, 1.03});
@@ -312,8 +312,8 @@ TEST_CASE("every voxel in range is asked of a scan, and decided on") {
 }
 
 TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") {
-  // Of scans 0 to 4 every second one is kept, and of these the last two: 2 and 4. Scan 0 would
-  // agree.
+  // Of scans 0 to 4, every second one is stored, and of these the last two: 2 and 4. Scan 0 would
+  // support the voxel.
   Parameters parameters;
   parameters.history_scans = 2;
   EarlierScans earlier(parameters);

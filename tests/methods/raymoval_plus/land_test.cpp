@@ -46,8 +46,8 @@ TEST_CASE("land rises as a plane does, whatever stands on it") {
 }
 
 TEST_CASE("land of which little is known is level") {
-  // Five columns in a row: one of them has ground two columns to either side. Of the 25 differences
-  // that it takes, 24 count as none.
+  // Five columns in a row: one of them has ground two columns to either side. Of its 25
+  // differences, 24 count as 0.
   const std::vector<float> ground = ground_of([](int x, int y) {
     const bool is_known = y == kMiddle && x >= kMiddle - 2 && x <= kMiddle + 2;
     return is_known ? 0.2F * static_cast<float>(x) : std::numeric_limits<float>::infinity();

@@ -126,7 +126,8 @@ TEST_CASE("a person against a wall goes with all of its points") {
   }
   CHECK(scene.dynamic(0, 400) == 0);
   CHECK(scene.dynamic(400, 460) == 60);
-  // Not divided, the person is a group in a wall: its dynamic points go, its feet stay.
+  // Not divided, the person is a group in a wall: its dynamic points are removed, its feet are
+  // kept.
   scene.parameters.settled_scans = 0;
   CHECK(scene.dynamic(0, 460) == 40);
 }
@@ -248,25 +249,25 @@ TEST_CASE("a pole stays where somebody stands beside it") {
     CHECK((gone == 0 || gone == 12));
     return gone == 12;
   };
-  // They are there together for 21 scans. Of the 20 scans before and after, all must agree.
+  // Both are there for 21 scans. All of the 20 scans before and after must support the pole.
   CHECK_FALSE(pole_goes({0, 41, 0, 0, 30, 70}));
   CHECK(pole_goes({0, 40, 0, 0, 30, 70}));
-  CHECK_FALSE(pole_goes({0, 41, 0, 0, 20, 60}));  // They may be all before, ...
+  CHECK_FALSE(pole_goes({0, 41, 0, 0, 20, 60}));  // All may be before, ...
   CHECK_FALSE(pole_goes({0, 41, 0, 0, 40, 80}));  // ... or all after.
-  CHECK(pole_goes({0, 21, 0, 0, 40, 60}));        // It came and left with him.
-  CHECK_FALSE(pole_goes({0, 30, 0, 0, 0, 29}));   // It left before he came.
-  // Of 130 scans before and after, 104 must agree.
+  CHECK(pole_goes({0, 21, 0, 0, 40, 60}));        // It came and left with the person.
+  CHECK_FALSE(pole_goes({0, 30, 0, 0, 0, 29}));   // It left before the person came.
+  // Of 130 scans before and after, 104 must support it.
   CHECK_FALSE(pole_goes({0, 125, 0, 0, 0, 150}));
   CHECK(pole_goes({0, 124, 0, 0, 0, 150}));
-  CHECK_FALSE(pole_goes({6, 125, 0, 0, 0, 150}));  // A twentieth of the scans may see through.
+  CHECK_FALSE(pole_goes({6, 125, 0, 0, 0, 150}));  // A twentieth of the scans may be free.
   CHECK(pole_goes({7, 125, 0, 0, 0, 150}));
   CHECK(pole_goes({0, 41, 0, 0, 30, 70}, {0}));  // A marked cluster is removed as a whole.
 }
 
 TEST_CASE("a pole stays beside what was there for different times") {
   // Half of the person's points were there from scan 40 to 60, and half from 30 to 70: from 35 to
-  // 65 on average, and with a standard deviation of 5 before and after from 30 to 70. Of the twenty
-  // scans from 20 on and up to 80 that are not among these 41, all must agree.
+  // 65 on average, and with a standard deviation of 5 before and after from 30 to 70. All of the
+  // twenty scans from 20 to 80 that are not among these 41 must support the pole.
   const auto person = [](std::size_t k) {  // Two points that follow each other have one voxel.
     return k / 2 % 2 == 0 ? VoxelEvidence{10, 5, 0, 0, 30, 70} : VoxelEvidence{10, 5, 0, 0, 40, 60};
   };
@@ -299,8 +300,8 @@ TEST_CASE("what is too sparse for the sensor that saw it is not followed, all el
 }
 
 TEST_CASE("a fragment goes with what goes beside it") {
-  // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it 3 points that no scan saw
-  // through. The reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
+  // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it 3 points without free scans. The
+  // reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
   for (const double apart : {0.6, 0.86, 0.90}) {
     for (const int points : {3, 4}) {  // Four are an object of their own.
       for (const bool goes : {true, false}) {
@@ -366,7 +367,7 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
 
 TEST_CASE("far away, low points follow what stands higher up and farther aside") {
   // 30 m away, 1.9 m are 1 m and 0.03 times the range. Beams 2 degrees apart are 1.05 m apart
-  // there, and 0.6 of that are three columns more than the one beside.
+  // there, and 0.6 of that are three more columns than the neighbouring column.
   struct Standing {
     double high, aside;
     bool is_followed;
@@ -477,8 +478,8 @@ TEST_CASE("however far apart beams are, low points look no more than twenty colu
 }
 
 TEST_CASE("what is taken for ground follows what moves above it, if the ground is lower there") {
-  // A foot whose points are taken for ground, and a leg above it. A hundred points of earlier scans
-  // say that the ground is at `base`, which the terrain says is 0: a road, or a pavement beside it.
+  // A foot whose points are taken for ground, and a leg above it. By a hundred points of earlier
+  // scans the ground is at `base`, by the terrain at 0: a road, or a pavement beside it.
   for (const double base : {0.001, 0.051}) {
     for (const Verdict leg : {Verdict::kDynamic, Verdict::kStatic}) {
       for (const Verdict foot : {Verdict::kDynamic, Verdict::kStatic}) {
@@ -499,7 +500,7 @@ TEST_CASE("what is taken for ground follows what moves above it, if the ground i
 }
 
 TEST_CASE("what was no ground when it was seen follows what moves above it") {
-  for (const bool ground_evidence : {true, false}) {  // Without, the ground always stays.
+  for (const bool ground_evidence : {true, false}) {  // Without it, the ground is always kept.
     Scene scene;
     scene.parameters.ground_evidence = ground_evidence;
     scene.add({5.05, 0.05, 0.01}, Verdict::kStatic);
@@ -705,8 +706,8 @@ TEST_CASE("a part with few dynamic points neither goes as a whole nor is marked 
 }
 
 TEST_CASE("the reason for a verdict is the step that made it") {
-  // Eight voxels, and three of the ground: whether it was seen through, what the vote, then the
-  // objects, then the low points made of it.
+  // Eight voxels, and three of the ground: whether it was observed as free, then the result of the
+  // vote, of the objects, and of the low points.
   struct Story {
     bool seen_through, voted, object, removed;
     const char* reason;

@@ -186,7 +186,8 @@ TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
   const Pose upright = Pose::Identity();
   CHECK(told(-2.0, upright) == Observation::kFree);
   CHECK(told(2.0, upright) == Observation::kOccluded);
-  // Up is up in the world: a sensor that hangs upside down sees the same place below the horizon.
+  // Up is up in the world: for a sensor that hangs upside down, the same place is below the
+  // horizon.
   const Pose hanging(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
   CHECK(told(-2.0, hanging) == Observation::kOccluded);
   CHECK(told(2.0, hanging) == Observation::kFree);
@@ -203,7 +204,8 @@ TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
   const Eigen::Vector3f first = bin.at(18.0, 0.0, -2.0), second = bin.at(22.5, 0.0, 0.0),
                         third = bin.at(30.0, 0.0, 2.0);
   CHECK(told(20.5, {first, second, third}) == Observation::kOccluded);
-  // Above the slope by more than a row, or with two returns only, it is seen beside what hides it.
+  // Above the slope by more than a row, or with two returns only, it is visible beside the
+  // occluder.
   CHECK(told(19.0, {first, second, third}) == Observation::kFree);
   CHECK(told(20.5, {first, second}) == Observation::kFree);
   // The third return may lie before the others: 15 m are 1/90 more than 18 m.
@@ -214,9 +216,9 @@ TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
 }
 
 TEST_CASE("few beams see through what they meet and pass, though lower ones end before it") {
-  // Beams 2 degrees apart, in the middles of rows of 1 degree, look down on a road 1.7 m below:
-  // those at 5 and 3 degrees meet it 19.5 and 32.5 m away. What the upper one meets 26 m away is
-  // 0.34 m above the road, and the lower one is in its window.
+  // Beams 2 degrees apart, in the middles of rows of 1 degree, hit a road 1.7 m below: the beams at
+  // 5 and 3 degrees hit it 19.5 and 32.5 m away. A hit of the upper beam 26 m away is 0.34 m above
+  // the road, and the lower beam is in its window.
   const SensorModel sensor = sensor_within(15.5, 2.0);
   const auto at = [](double range, double elevation) -> Eigen::Vector3f {
     return (range * direction(0.0, elevation * kDegree)).cast<float>();
@@ -255,8 +257,8 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
 }
 
 TEST_CASE("a place above the highest beam is not seen through") {
-  // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
-  // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
+  // A ceiling 3 m above the sensor, whose highest beam is at 15 degrees: the nearest return is 11.2
+  // m ahead, and the ceiling before it is within the window of that beam.
   const SensorModel sensor = sensor_within(15.0, 2.0);
   const auto ceiling = [](double elevation) -> Eigen::Vector3f {
     return (3.0 / std::sin(elevation * kDegree) * direction(0.0, elevation * kDegree))
@@ -320,8 +322,8 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
 }
 
 TEST_CASE("places near the sensor, with large windows, are observed as bin by bin") {
-  // A room with a pillar, a gap in the wall and no returns from above: whole windows agree, hide,
-  // are seen through and are empty, and others are of two kinds.
+  // A room with a pillar, a gap in the wall and no returns from above: some whole windows support,
+  // occlude, are free or are empty, and others are mixed.
   std::mt19937 random(9);
   std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.45F, 0.15F), any(0.0F, 1.0F);
   const auto somewhere = [&](float steeper, const auto& range_at) {
@@ -384,7 +386,7 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
     return image.observe(turn.inverse().cast<float>() * foot, rule);
   };
   CHECK(seen({}) == Observation::kFree);
-  // What was taken for ground is still asked about all of the window.
+  // For ground, the whole window is still used.
   CHECK(seen({}, SeenThrough::kAtOrBelow) == Observation::kAgree);
   // The foot itself, 4 cm higher or lower, and 10 cm farther or nearer.
   for (const double up : {-0.04, 0.04}) {
@@ -397,8 +399,8 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
   // A person half a metre before it occludes it, at any height of the hit.
   const Eigen::Vector3f before = (2.3 * direction(0.0, elevation - 1.5 * kDegree)).cast<float>();
   CHECK(seen({before}) == Observation::kOccluded);
-  // Where the ground is met, beams that pass lower or higher do not see through it, though they
-  // go on.
+  // If the ground is hit, beams that pass lower or higher are no free observations of it, though
+  // they continue.
   const auto passing = [&](double up) {
     const Eigen::Vector3f met = (2.85 * direction(0.0, elevation - 0.03)).cast<float>();
     const Eigen::Vector3f beyond = (6.0 * direction(0.0, elevation + up / range)).cast<float>();
@@ -422,7 +424,7 @@ TEST_CASE("a sensor has even beams if they are known, or its steps differ") {
   CHECK(has_even_beams(sensor));
   sensor.beams = 0;
   sensor.azimuth_step *= 0.5;
-  CHECK_FALSE(has_even_beams(sensor));  // It was estimated, and none were found.
+  CHECK_FALSE(has_even_beams(sensor));  // It was estimated without beams.
   for (const std::string& name : sensor_model_names()) {
     CHECK(has_even_beams(sensor_model_named(name)));
   }

@@ -34,7 +34,7 @@ class DrivingPost {
     add_post(scan);
     take(scan);
   }
-  /// Later scans saw through the place of a scan's post.
+  /// Later scans observed the place of a scan's post as free.
   void leave(std::size_t scan) {
     for (const std::uint32_t voxel : voxels_[scan]) {
       EvidenceMap::Blocks::Cursor cursor;
@@ -126,7 +126,7 @@ TEST_CASE("what left three places behind later is known to have moved before") {
 }
 
 TEST_CASE("the clusters of a scan that is taken again replace those that it had") {
-  // The post is cluster 0, and cluster 1 where there is a pole, which stays.
+  // The post is cluster 0, or cluster 1 if there is a pole, which is kept.
   DrivingPost post;
   for (int i = 0; i < 5; ++i) post.scan();
   for (const std::size_t i : {0U, 1U, 2U}) post.leave(i);

@@ -55,7 +55,7 @@ void make_van(ObjectSummary& object) {
 TEST_CASE("an object is followed past its last evidence, a standing one is not") {
   Scans scans;
   for (int i = 0; i < 10; ++i) {
-    // Nothing was seen after the last three scans, so their voxels are not found free.
+    // There are no scans after the last three, so their voxels are not observed as free.
     scans.push_back({walker(i, i < 7 ? 18 : 0, 4.0), walker(0, 0, 10.0)});
     scans.back()[1].center.y() += 5.0;
   }
@@ -73,8 +73,9 @@ TEST_CASE("an object is followed past its last evidence, a standing one is not")
 }
 
 TEST_CASE("track_slack says how long scans may agree with what moves on") {
-  // 0.71 m of length, twice 0.25 m within which returns agree, and a voxel of 0.2 m pass in 7.04
-  // scans at 0.2 m each. 2.2 times as many and two are 17.5 scans, 2.3 times as many 18.2.
+  // 0.71 m of length, twice the tolerance of 0.25 m of supporting returns, and a voxel of 0.2 m
+  // pass in 7.04 scans at 0.2 m each. 2.2 times as many and two are 17.5 scans, 2.3 times as
+  // many 18.2.
   for (const double slack : {2.2, 2.3}) {
     Parameters parameters;
     parameters.track_slack = slack;
@@ -149,12 +150,13 @@ TEST_CASE(
     CHECK(marked[20] == marked[25]);
     return marked[25] == std::vector{0};
   };
-  // He walks 0.2 m a scan and is 0.71 m wide, so that he is still in its place for three scans.
+  // The walker moves 0.2 m per scan and is 0.71 m wide, so it is still at the place for three
+  // scans.
   for (const bool comes : {false, true}) {
     CHECK(is_marked(comes, 60.0F, 0.0F, 13.0));  // Scans may support the place around the walker.
     CHECK_FALSE(is_marked(comes, 60.0F, 0.0F, 14.0));
     CHECK_FALSE(is_marked(comes, 60.0F, 3.0F, 20.0));
-    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));  // Seen through more: others came there.
+    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));  // More free scans: others came there.
     // Five scans more than the 43 in which it is followed there are a quarter of the other 17.
     CHECK_FALSE(is_marked(comes, 48.0F, 0.0F, 20.0));
     CHECK(is_marked(comes, 47.0F, 0.0F, 20.0));
@@ -249,7 +251,7 @@ TEST_CASE("what stands is one thing in all scans if in enough of them it came or
         if (i >= dynamic) scans.back()[0].low.z() += 0.7;
       }
       const auto marked = marked_by_tracks(scans);
-      // 22 scans are twice as many as he was followed, and two more.
+      // 22 scans are twice the length of the track, and two more.
       const bool is_one = dynamic == 3 && agree_scans == 22.0F;
       for (std::size_t i = 3; i < 10; ++i) {
         CHECK(marked[i] == (is_one ? std::vector{0} : std::vector<int>{}));

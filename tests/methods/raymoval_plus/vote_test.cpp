@@ -19,7 +19,7 @@ class Row {
  public:
   EvidenceMap& map = points_.map;
 
-  /// @param agree_scans scans that agree with it
+  /// @param agree_scans number of supporting scans
   std::uint32_t add(int cell, Verdict decision, int agree_scans = 0) {
     const auto voxel = points_.add(middle(cell));
     map.set_decision(voxel, decision);
