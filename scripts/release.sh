@@ -5,7 +5,7 @@
 # All is built from the archive, without network.
 #
 #   scripts/release.sh [--out DIR] [--twice] [--source-only]
-#     --out DIR       where the files go; it must not exist or be empty (default: build/dist)
+#     --out DIR       folder of the files; it must not exist or be empty (default: build/dist)
 #     --twice         builds a second time, in another folder without compiler cache, and compares bytes
 #     --source-only   makes only the source archive
 #

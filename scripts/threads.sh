@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Looks for races, and for answers that depend on the number of threads. CI does not run it: it takes
-# half an hour on two cores.
+# Detects races, and answers that depend on the number of threads. CI does not run it: it takes half
+# an hour on two cores.
 #
 #   scripts/threads.sh                       both of the following, masks on the scene `town`
 #   scripts/threads.sh races [REGEX]         ThreadSanitizer (build/tsan): the unit tests of loops, child
