@@ -36,7 +36,7 @@ struct RecordLayout {
   /// Whether the file has no field names: columns of an array, numbers of a .bin file.
   bool unnamed = false;
 
-  /// The first field with one of `names`, or null. Names are case-sensitive.
+  /// The first field with one of `names`, or null. If no name is equal, case is ignored.
   [[nodiscard]] const PointField* find(const std::vector<std::string_view>& names) const;
   /// Appends a field behind the last byte and sets `unnamed` to false.
   void add(std::string name, char type, int size, int count = 1);

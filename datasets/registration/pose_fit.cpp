@@ -31,7 +31,7 @@ constexpr double kLeastReturn = 1.5;  // metres
 constexpr std::size_t kLeastMatched = 150;
 constexpr double kLeastOverlap = 0.25;
 constexpr double kClearGain = 1.2;
-constexpr std::size_t kFewestPairs = 4;  // About one pair in some hundred is misjudged.
+constexpr std::size_t kFewestPairs = 4;  // Fewer are no basis: one in some hundred is misjudged.
 constexpr std::size_t kBatch = 32;       // Pairs whose scans are in memory together.
 
 using Pairs = std::vector<PairDistance>;
