@@ -45,10 +45,9 @@ class FirstError {
   std::size_t chunk_ = 0;
 };
 
-/// Tells ThreadSanitizer, which cannot look into TBB, what TBB puts in order: what is done before a
-/// loop comes before its chunks, and the chunks before what is done after it. Chunks are not put in
-/// order with each other, so that a race between two of them is still found. Nothing in other
-/// builds.
+/// Declares TBB's ordering to ThreadSanitizer, which cannot see it: code before a loop, then its
+/// chunks, then code after the loop. Chunks have no order among each other, so that a race between
+/// two of them is still found. Does nothing in other builds.
 class LoopOrder {
  public:
 #ifdef RAYMOVAL_WATCHED_THREADS
@@ -87,10 +86,10 @@ KeptArena& kept_arena() {
   return kept;
 }
 
-/// Of the loop that this thread is in: the threads of the kept arena if it runs there, else 0.
+/// Threads of the kept arena if the loop of this thread runs there, else 0.
 thread_local int threads_around = 0;
 
-/// What a chunk is run in.
+/// Sets `threads_around` while a chunk runs.
 class ChunkScope {
  public:
   explicit ChunkScope(int threads) : outer_(threads_around) { threads_around = threads; }
@@ -103,13 +102,13 @@ class ChunkScope {
 };
 
 /// Runs `work(threads of the kept arena, or 0 if it is not used)` with at most `threads` threads. A
-/// loop within a loop of as many threads shares their arena, so that whoever has nothing left to do
-/// helps; while it waits for the others, its thread takes up nothing else. A loop within a smaller
-/// one, or beside one, gets an arena of its own.
+/// loop within a loop of as many threads shares its arena, so that idle threads help. While the
+/// inner loop waits for other threads, its thread takes no other work. A loop within a smaller
+/// loop, or beside one, gets a separate arena.
 template <class Work>
 void run_in_arena(int threads, Work&& work) {
-  // TBB never runs more than this, and warns on standard error where it is asked to. It is the
-  // number of processors, unless a `tbb::global_control` says otherwise.
+  // TBB never runs more threads than this, and warns on standard error if more are requested. It is
+  // the number of processors, unless a `tbb::global_control` changes it.
   const std::size_t allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const int most = static_cast<int>(std::min(static_cast<std::size_t>(threads), allowed));

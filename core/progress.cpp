@@ -101,7 +101,7 @@ std::string Progress::with_context(const std::string& line) const {
 
 void Progress::print_terminal(Clock::time_point now) {
   printed_ = now;
-  // A line that the terminal breaks cannot be cleared. How far it is matters more than what it is.
+  // A line that the terminal wraps cannot be cleared, so a long line is cut to the state only.
   std::string line = with_context(status(now));
   if (const std::size_t width = line_width(stream_); width > 0 && line.size() > width) {
     line = cut_text(status(now), width);

@@ -19,7 +19,7 @@ enum class ProgressStyle {
 /// `kTerminal` if standard error is a terminal, else `kLog`.
 ProgressStyle progress_style_of_stderr();
 
-/// How far a task is.
+/// The state of a task.
 struct ProgressState {
   std::string context;    ///< The larger task that it belongs to; may be empty.
   std::string task;       ///< Empty before the first task.
@@ -48,7 +48,7 @@ class Progress {
   void end();
   /// The state of the task, for callers that show it themselves.
   [[nodiscard]] ProgressState state();
-  /// Prints a line of its own, not mixed with a progress line.
+  /// Prints a separate line, not mixed with a progress line.
   void say(const std::string& line);
 
  private:

@@ -7,8 +7,8 @@
 
 namespace raymoval {
 
-/// Positions of at most `most` of `count` things, evenly spread: the first and the last are among
-/// them where two or more are chosen.
+/// Positions of at most `most` of `count` items, evenly spread. If there are two or more positions,
+/// the first and the last item are among them.
 inline std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t most) {
   std::vector<std::size_t> chosen(std::min(count, most));
   for (std::size_t k = 1; k < chosen.size(); ++k) chosen[k] = k * (count - 1) / (chosen.size() - 1);

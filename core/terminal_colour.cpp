@@ -31,7 +31,7 @@ const char* sequence_of(TerminalColour colour) {
   }
 }
 
-/// Bytes of what `coloured` adds, if it stands at `at`; else 0.
+/// Length of an escape sequence of `coloured` at position `at`; 0 if there is none.
 std::size_t colour_length(const std::string& text, std::size_t at) {
   for (const std::string_view known :
        {std::string_view(kPlain), std::string_view(sequence_of(TerminalColour::kGood)),

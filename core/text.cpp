@@ -75,7 +75,7 @@ std::string join(const std::vector<std::string>& parts, std::string_view separat
 
 namespace {
 
-/// Letters to put in, leave out or replace; a swap of neighbours is one change too.
+/// Number of letters to insert, delete or replace; a swap of neighbours is one change too.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> above(b.size() + 1);

@@ -7,8 +7,8 @@
 namespace raymoval {
 namespace {
 
-/// Whether a character steers a terminal, changes the direction of writing, or has no width: text
-/// with it does not look like what it is.
+/// Whether a character controls a terminal, changes the direction of writing, or has no width: text
+/// with it looks like other text.
 bool is_treacherous(std::uint32_t code) {
   const auto within = [code](std::uint32_t first, std::uint32_t last) {
     return code >= first && code <= last;

@@ -14,7 +14,7 @@ constexpr bool begins_character(char byte) {
 /// The number of characters of a UTF-8 text.
 std::size_t character_count(const std::string& text);
 
-/// The first `most` bytes of a UTF-8 text, or a few less, so that no character is cut in two.
+/// The first `most` bytes of a UTF-8 text, or a few less, so that no character is split.
 std::string cut_text(const std::string& text, std::size_t most);
 
 /// The text as valid UTF-8 that can be shown: ASCII's control characters become blanks. Bytes that

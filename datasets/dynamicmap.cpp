@@ -10,7 +10,7 @@
 namespace raymoval {
 namespace {
 
-/// Labels by value are those of SemanticKITTI; 0 and 1 say only what moves.
+/// The classes of SemanticKITTI. With labels 0 and 1, only 1 moves.
 ClassNames class_names() {
   ClassNames names = semantickitti_class_names();
   names.erase(0);
@@ -18,7 +18,7 @@ ClassNames class_names() {
   return names;
 }
 
-/// Poses and frame are those that the files say.
+/// Refuses options on poses and frame, which the files define.
 void check_no_pose_settings(const SequenceSettings& settings, const std::filesystem::path& folder) {
   const std::string why =
       " cannot be used: the poses of this layout are in the VIEWPOINT of each .pcd file. ";

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// @param others files that are no scans, wherever they stand: poses, T_sensor
+/// @param others files in any folder that are no scans: poses, T_sensor
 std::vector<NumberedFile> scan_files(const fs::path& folder, const std::vector<fs::path>& others) {
   std::vector<NumberedFile> files;
   std::map<std::string, std::string> names;
@@ -46,7 +46,7 @@ std::vector<NumberedFile> scan_files(const fs::path& folder, const std::vector<f
 }
 
 /// The time of each scan: a line of times.txt or timestamps.txt for each. KITTI's raw data have
-/// timestamps.txt beside their folder `data`. @return nothing in it if there is no such file
+/// timestamps.txt beside their folder `data`. @return empty if there is no such file
 StampColumn listed_stamps(const fs::path& folder, const std::vector<NumberedFile>& files,
                           std::vector<fs::path>& input_files) {
   for (const fs::path& path :
@@ -63,9 +63,9 @@ StampColumn listed_stamps(const fs::path& folder, const std::vector<NumberedFile
   return {};
 }
 
-/// Puts scans whose names are times in the order of these.
-/// @param poses null for a sensor that stands
-/// @return the times; nothing in it if names are no times
+/// Sorts scans whose names are times by time.
+/// @param poses null for a stationary sensor
+/// @return the times; empty if names are no times
 StampColumn order_by_names(std::vector<NumberedFile>& files, const PoseFile* poses,
                            Nanoseconds time_offset, std::vector<std::string>& notes) {
   std::vector<std::string> stems;
@@ -91,13 +91,13 @@ StampColumn order_by_names(std::vector<NumberedFile>& files, const PoseFile* pos
     column.since_first.push_back(to_seconds(stamp - column.stamps.front()));
     inside += !span || (stamp >= span->first && stamp <= span->second) ? 1 : 0;
   }
-  // Times since nobody knows when are not those of the poses, if these are other ones.
+  // Times with an unknown zero are on another clock if fewer than half lie within the poses' times.
   const bool other_clock = !named->since_1970 && 2 * inside < files.size();
   if (other_clock && poses->rows.size() == files.size()) return {};
   return column;
 }
 
-/// What is known of the chosen scans.
+/// Numbers, names and times of the chosen scans.
 ScanKeys keys_of_files(const std::vector<NumberedFile>& chosen,
                        const std::vector<NumberedFile>& all, const StampColumn& times,
                        double period_s) {
@@ -114,9 +114,9 @@ ScanKeys keys_of_files(const std::vector<NumberedFile>& chosen,
   return keys;
 }
 
-/// Where the poses are from.
+/// The source of the poses.
 struct PosePlaceFound {
-  std::optional<fs::path> file;  ///< Nothing for a sensor that stands.
+  std::optional<fs::path> file;  ///< Empty for a stationary sensor.
   PoseSettings settings;
 };
 

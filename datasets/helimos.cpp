@@ -20,7 +20,7 @@ bool is_sensor_folder(const fs::path& folder) {
   return has_folder(folder / "velodyne");
 }
 
-/// A root is known by the lists of its parts.
+/// A root has the lists of its parts.
 bool is_root(const fs::path& folder) {
   const auto is_listed = [&](const char* part) { return has_file(folder / part); };
   return is_folder(folder) && is_listed("train.txt") && is_listed("val.txt") &&
@@ -88,7 +88,7 @@ Layout helimos_layout() {
   layout.name = "helimos";
   layout.expected = "a HeLiMOS root as ROOT:Ouster (Ouster/velodyne, train.txt, val.txt, test.txt)";
   layout.forms = {{"ROOT:Ouster", "a sensor of a HeLiMOS root folder, or that sensor's folder"}};
-  // Those of SemanticKITTI, whose label words these are, with two of its own.
+  // The classes of SemanticKITTI, and two of HeLiMOS.
   layout.class_names[9] = "static";
   layout.class_names[251] = "moving";
   layout.recognise = names_helimos;

@@ -12,7 +12,7 @@ namespace raymoval {
 namespace {
 
 std::list<Layout>& registry() {
-  // A line for each way in.
+  // One line per layout.
   static std::list<Layout> all = [] {
     std::list<Layout> list;
     list.push_back(street_layout());

@@ -8,19 +8,19 @@
 
 namespace raymoval {
 
-/// All layouts, in the order in which they are asked whether they recognise a path.
+/// All layouts, in the order in which they are tried for a path.
 const std::list<Layout>& layouts();
 
-/// Adds a layout of a program's or a test's own. It is asked before the others, but after scenes,
-/// whose names stand above folders. To be called before sequences are opened in other threads.
+/// Adds a layout. It is tried before other layouts, but after scenes, whose names take precedence
+/// over folders. Call this before other threads open sequences.
 /// @throws UsageError if there is a layout of this name
 void register_layout(Layout layout);
 
 /// The first layout that recognises `path`. Null if none does.
-/// @throws DataError if the path cannot be looked at
+/// @throws DataError if the path cannot be accessed
 const Layout* recognised_layout(const std::string& path);
 
-/// The layout that `sequence` was opened by. One that no layout opened has a layout without facts.
+/// The layout of `sequence`; an empty layout if it was not opened by one.
 const Layout& layout_of(const Sequence& sequence);
 
 }  // namespace raymoval

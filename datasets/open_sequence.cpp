@@ -30,7 +30,7 @@ bool is_scan_folder(const fs::path& name) {
   return false;
 }
 
-/// The folder above `path`, if that is a sequence and `path` its folder of scans or one of these;
+/// The folder above `path`, if it is a sequence and `path` is its scan folder or one of its scans;
 /// else empty.
 std::string sequence_above(const fs::path& path) {
   fs::path folder = fs::absolute(path).lexically_normal();
@@ -43,8 +43,8 @@ std::string sequence_above(const fs::path& path) {
   return "";
 }
 
-/// What looks like a folder of scans may be the scan folder of a sequence in another layout. With
-/// poses of its own it is a sequence whatever its name.
+/// Refuses the scan folder of a sequence in another layout. A folder with its own poses is a
+/// sequence, with any name.
 void check_not_part(const std::string& path, const SequenceOptions& options) {
   if (!is_folder(path) || options.poses || !list_files(path, {".txt"}).empty()) return;
   const std::string above = sequence_above(path);
@@ -52,10 +52,10 @@ void check_not_part(const std::string& path, const SequenceOptions& options) {
   throw DataError(path + ": holds scans only; the sequence they belong to is " + above + ".");
 }
 
-/// Says what is missing of a folder whose files are known, but are no sequence.
+/// Reports what a folder of known files lacks to be a sequence.
 void check_known_files(const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder)) {
-    // Both throw: the files are no parts of one recording, or a format that is not read.
+    // Both throw: the files are no parts of one recording, or of a format that is not supported.
     if (if_whole([&] { return is_bag(entry); }) == true) (void)open_bag(folder);
     if (!conversion_text(entry).empty()) (void)read_layout(entry);
   }
@@ -68,7 +68,7 @@ void check_topics(const Layout& layout, const std::string& path, const SequenceO
                    (options.topic ? "--topic" : "--pose-topic") + ". Leave it out.");
 }
 
-/// Refuses a rule that the data says too little for.
+/// Refuses the rule moving-now for a sequence that does not support it.
 void check_label_rule(const Sequence& sequence, const SequenceOptions& options) {
   if (!options.label_rule || is_rule_file(*options.label_rule) || sequence.moving_now) return;
   throw UsageError("--label-rule moving-now cannot be used on sequence " + sequence.name + ": " +
@@ -100,7 +100,7 @@ void check_label_rule(const Sequence& sequence, const SequenceOptions& options) 
                   (near ? " Did you mean the scene '" + *near + "'?" : "") + known_text());
 }
 
-/// Null if `path` is no scene.
+/// The scene names of the layout of `path`; null if it is no scene.
 const SceneNames* scenes_of(const std::string& path) {
   for (const Layout& layout : layouts()) {
     if (layout.scenes && layout.recognise(path)) return &*layout.scenes;
@@ -112,7 +112,7 @@ DeskewInput deskew_input(const Sequence& sequence) {
   return {sequence.records, sequence.motion, sequence.stamps};
 }
 
-/// How the points of a sequence are timed; `sequence` gets what is to be said of it.
+/// The clock of the points of a sequence; `sequence` gets notes on it.
 PointClock point_clock_of(Sequence& sequence) {
   if (sequence.records == nullptr || sequence.motion == nullptr) {
     throw UsageError("--deskew cannot be used on sequence " + sequence.name +
@@ -167,7 +167,7 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {
     sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego);
   }
-  // The own vehicle stands still in the frame of the sensor, so it is left out before.
+  // The ego vehicle is fixed in the sensor frame, so it is removed before the motion correction.
   if (clock) {
     sequence.scans =
         std::make_shared<DeskewedSource>(sequence.scans, deskew_input(sequence), *clock);

@@ -10,44 +10,44 @@
 namespace raymoval {
 
 /// Opens a sequence by the first layout that recognises `path` (see `layouts`). `path` is one of:
-/// - a sequence folder, whose content says its layout: `velodyne/` (SemanticKITTI), `pcd/` (KTH
-///   DynamicMap), or `.pcd`, `.ply`, `.bin` scans beside a pose file;
+/// - a sequence folder with `velodyne/` (SemanticKITTI), `pcd/` (KTH DynamicMap), or `.pcd`,
+///   `.ply`, `.bin` scans beside a pose file;
 /// - `ROOT:05`, the whole sequence `ROOT/sequences/05` of a SemanticKITTI root;
-/// - `ROOT:kitti-05`, the segment of that sequence which the field compares on (kitti-00, -01, -02,
-///   -05, -07, see `paper_segments`); `options.frames` replaces its frame range;
+/// - `ROOT:kitti-05`, the segment of that sequence that papers use (kitti-00, -01, -02, -05, -07,
+///   see `paper_segments`); `options.frames` replaces its frame range;
 /// - `street`, the small built-in scene, made in memory;
 /// - a simulated scene (see `raymoval list scenes`) or the path of a scene file, with options or
 ///   without: `town`, `town:scans=60,seed=3,sensor=vlp16,pose_noise=0,rolling=skewed`. `sensor` is
-///   a name or path of a simulated sensor; what is not given is as `SimulationOptions` says. It is
+///   a name or path of a simulated sensor; `SimulationOptions` has the defaults. The scene is
 ///   generated once into the cache folder (`default_cache_root`) and read from there like any
 ///   other sequence in SemanticKITTI layout;
-/// - what a layout takes that was added with `register_layout`.
+/// - a path of a layout that was added with `register_layout`.
 ///
-/// The name of a scene is the scene also where a folder has it: write `./town` for the folder, and
-/// see `scene_or_folder`. A `sequence.json` in the folder may say more, see `read_settings`;
-/// `options` stand above it.
-/// @throws DataError, UsageError or ConfigurationError saying what was found and what was expected;
-/// Cancelled
+/// A scene takes precedence over a folder of the same name: write `./town` for the folder, and see
+/// `scene_or_folder`. A `sequence.json` in the folder may have settings, see `read_settings`;
+/// `options` replace them.
+/// @throws DataError, UsageError or ConfigurationError naming what was found and what was expected;
+///   Cancelled
 Sequence open_sequence(const std::string& path, const SequenceOptions& options,
                        const OpenContext& context = {});
 
-/// The name that `open_sequence` would give, told without generating a scene.
-/// @throws as open_sequence where more has to be looked at than the name
+/// The name that `open_sequence` would give, without generating a scene.
+/// @throws as `open_sequence` if the name depends on files
 std::string sequence_name(const std::string& path, const SequenceOptions& options);
 
-/// The scenes that the program brings along: `town` and so on, and `street`.
+/// The built-in scenes: `town` and so on, and `street`.
 std::vector<std::string> scene_names();
 
-/// Whether `open_sequence` takes `path` for a scene: `street`, a simulated one, a scene file.
+/// Whether `open_sequence` opens `path` as a scene: `street`, a simulated scene, a scene file.
 bool is_scene(const std::string& path);
 
-/// Whether `open_sequence` would leave nothing new on the disk: false for a scene that it would
-/// simulate into the cache first. @throws as open_sequence for a scene
+/// Whether `open_sequence` writes no file: false for a scene that is not in the cache yet.
+/// @throws as `open_sequence` for a scene
 bool is_at_hand(const std::string& path);
 
-/// What to tell a user who may mean either: `path` names a scene, and a folder of that name stands
-/// in `base`. Empty if only one is there.
-/// @param base folder that the user's paths start from; empty: the current one
+/// The message for an ambiguous `path`: the name of a scene and of a folder in `base`. Empty if it
+/// is not ambiguous.
+/// @param base folder of the user's relative paths; empty: the current folder
 std::string scene_or_folder(const std::string& path, const std::filesystem::path& base = {});
 
 /// @throws UsageError with the text of `scene_or_folder`

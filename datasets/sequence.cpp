@@ -25,12 +25,12 @@ Pose Sequence::upright_frame() const {
 
 namespace {
 
-/// The source that takes motion within scans out. Null if there is none.
+/// The source that corrects motion within scans; null if there is none.
 const DeskewedSource* deskewed_source(const Sequence& sequence) {
   return dynamic_cast<const DeskewedSource*>(&sequence.as_opened());
 }
 
-/// The scans as they were opened, before motion within them is taken out.
+/// The scans as opened, before motion within scans is corrected.
 const ScanSource* skewed_source(const Sequence& sequence) {
   if (const DeskewedSource* deskewed = deskewed_source(sequence)) return &deskewed->whole();
   return &sequence.as_opened();

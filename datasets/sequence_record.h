@@ -11,10 +11,10 @@
 
 namespace raymoval {
 
-/// The region of the own vehicle whose points are left out, as texts of `ego_region_text`.
+/// The region of the ego vehicle whose points are left out, as texts of `ego_region_text`.
 struct EgoRecord {
-  std::string asked = {};     ///< What the user asked for, "auto".
-  std::string left_out = {};  ///< What is left out for it.
+  std::string asked = {};     ///< As the user gave it, "auto".
+  std::string left_out = {};  ///< The resulting region.
 };
 
 /// How well the poses of a sequence fit its scans: the distance between surfaces of overlapping
@@ -24,7 +24,7 @@ struct PoseFitRecord {
   std::size_t pairs = 0;
 };
 
-/// What was read of a sequence and how. It has no path, because it is stored with results.
+/// A description of a sequence for results: which data was read, and how. It has no paths.
 struct DataRecord {
   std::string name = {};
   std::string layout = {};  ///< "semantickitti".
@@ -33,21 +33,21 @@ struct DataRecord {
   std::size_t scans = 0;
   std::string poses = {};         ///< Name of the pose file.
   std::string sensor = {};        ///< Name of the sensor model.
-  std::string sensor_basis = {};  ///< What an estimated sensor model rests on; else empty.
+  std::string sensor_basis = {};  ///< Basis of an estimated sensor model; else empty.
   std::string up = {};         ///< Which way is up in the world of the poses. It is empty in files
                                ///< of earlier versions, which took z.
-  std::string up_source = {};  ///< How that is known.
+  std::string up_source = {};  ///< Its source, see `up_source_name`.
   std::optional<double> scan_period_s = std::nullopt;
   RangeLimits range_m = {};
   std::optional<EgoRecord> drop_ego = std::nullopt;
   std::optional<LabelRule> label_rule = std::nullopt;  ///< No value if the data has no labels.
-  std::string T_sensor = {};       ///< As the user said it, a file without its folder; else empty.
-  std::string sensor_origin = {};  ///< As the user said it, "1.2,0,1.8"; else empty.
-  std::optional<double> time_offset_s = std::nullopt;  ///< As the user said it.
-  /// How motion within scans was taken out: "time in seconds from the time of the scan". Else
-  /// empty.
+  std::string T_sensor = {};       ///< As the user gave it, a file without its folder; else empty.
+  std::string sensor_origin = {};  ///< As the user gave it, "1.2,0,1.8"; else empty.
+  std::optional<double> time_offset_s = std::nullopt;  ///< As the user gave it.
+  /// The times for the correction of motion within scans: "time in seconds from the time of the
+  /// scan". Else empty.
   std::string deskew = {};
-  /// What of the data is missing or could not be read, in whole sentences without folders.
+  /// Missing or unreadable parts of the data, in whole sentences without folders.
   std::vector<std::string> losses = {};
   std::string fingerprint = {};  ///< Hash of all that methods and protocols read; empty if unknown.
 };

@@ -43,7 +43,7 @@ RangeLimits range_value(const Fields& file) {
   return range;
 }
 
-/// A name of a sensor; an empty one says that none is named.
+/// A name of a sensor; no value for an empty name.
 std::optional<std::string> sensor_value(const std::string& name) {
   if (name.empty()) return std::nullopt;
   return name;
@@ -53,7 +53,7 @@ std::optional<std::string> text_value(const Fields& file, const std::string& key
   return file.has(key) ? std::optional(file.text(key)) : std::nullopt;
 }
 
-/// What `read` gives, whose errors are those of a file. @param where begins them
+/// Calls `read` and reports its errors as errors of a file. @param where begins them
 template <class Read>
 auto read_in_file(const std::string& where, Read&& read) {
   try {
@@ -63,7 +63,7 @@ auto read_in_file(const std::string& where, Read&& read) {
   }
 }
 
-/// What a file says of poses and of the motion within scans.
+/// Applies the keys of a file on poses and on motion within scans.
 void apply_pose_keys(const Fields& file, SequenceSettings& settings) {
   settings.poses_are_lidar = file.flag("poses_are_lidar", settings.poses_are_lidar);
   if (file.has("poses")) settings.poses = file.text("poses", "");
@@ -174,7 +174,7 @@ std::string folder_name(const std::filesystem::path& folder) {
   return name.empty() ? "sequence" : name.string();
 }
 
-/// Lays what a user says of poses over the rest.
+/// Applies the user's options on poses.
 void apply_pose_options(const SequenceOptions& options, SequenceSettings& settings) {
   if (options.poses) settings.poses = options.poses;
   if (options.pose_format) settings.pose_format = options.pose_format;
@@ -185,7 +185,7 @@ void apply_pose_options(const SequenceOptions& options, SequenceSettings& settin
   if (options.points) settings.points = options.points;
   if (options.deskew) settings.deskew = *options.deskew;
   if (!options.point_time_unit) return;
-  (void)seconds_of_unit(*options.point_time_unit);  // It is wrong even where nothing needs it.
+  (void)seconds_of_unit(*options.point_time_unit);  // Throws for a bad unit, even if not needed.
   settings.point_time_unit = options.point_time_unit;
 }
 

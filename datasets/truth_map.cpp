@@ -15,8 +15,8 @@
 namespace raymoval {
 namespace {
 
-/// Far beside all points, so that none is taken for a missing return or for the ego vehicle, which
-/// the protocol of ERASOR leaves out.
+/// A sensor pose far from all points, so that no point counts as a missing return or as the ego
+/// vehicle, which the protocol of ERASOR leaves out.
 Pose viewpoint_beside(const Cloud& cloud) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& point : cloud.points) {
@@ -28,7 +28,7 @@ Pose viewpoint_beside(const Cloud& cloud) {
   return Pose(Eigen::Translation3d(place.array().round().matrix()));
 }
 
-/// DynamicMap's labels are 0 and 1; a map with SemanticKITTI's has others, too.
+/// Whether labels are DynamicMap's 0 and 1; SemanticKITTI's have other values, too.
 bool has_dynamicmap_labels(const Cloud& cloud) {
   return std::all_of(cloud.intensity.begin(), cloud.intensity.end(),
                      [](float value) { return value == 0.0F || value == 1.0F; });

@@ -15,7 +15,7 @@ void add(const Counts& from, Counts& to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
 }
 
-/// Counts of the block that begins at each scan; beyond the last scan it goes on with the first.
+/// Counts of the block that begins at each scan; blocks are circular.
 std::vector<Counts> block_sums(const std::vector<Counts>& scans, std::size_t length) {
   std::vector<Counts> sums(scans.size(), Counts(scans.front().size(), 0));
   for (std::size_t start = 0; start < scans.size(); ++start) {

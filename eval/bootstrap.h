@@ -35,8 +35,8 @@ struct Intervals {
 };
 
 /// The number of scans in a block: the square root of the number of all scans, rounded up. This is
-/// longer than the cube root that is best for short memory, since a place stays in view for many
-/// scans.
+/// longer than the cube root, which is best for short correlation, because a place is visible in
+/// many scans.
 std::size_t bootstrap_block(std::size_t scans);
 
 /// Circular block bootstrap over scans (Politis and Romano, 1992): each replicate strings blocks of
@@ -45,8 +45,8 @@ std::size_t bootstrap_block(std::size_t scans);
 /// replicates where the rate is defined (nearest rank).
 ///
 /// A protocol that counts voxels assigns each voxel to one scan. Verdicts, map and partners are
-/// those of the whole sequence: the interval says how much the rate depends on which scans were
-/// counted, not how a method would do with other scans in its map.
+/// those of the whole sequence: the interval shows how much the rate depends on the counted scans,
+/// not the result of a method with other scans in its map.
 /// @param counts_by_scan for each scan in order the same counts
 /// @param rates_of the rates that follow from sums of these counts, always the same ones in order
 /// @return a rate has no interval if there are fewer than four scans, or if it is undefined in most

@@ -15,8 +15,8 @@
 namespace raymoval {
 namespace {
 
-/// One pass over the scans by several workers. Scans are handed out in order, and what was read of
-/// them is taken in the same order by whichever worker is there.
+/// One pass over the scans by several workers. Scans are assigned in order, and their results are
+/// taken in the same order, each by any free worker.
 class OrderedPass {
  public:
   OrderedPass(const EvaluationInput& input, std::size_t slots,
@@ -97,8 +97,8 @@ class OrderedPass {
   std::size_t error_scan_ = 0;
 };
 
-/// The visitors that are shown the scans in the next pass: all that do not wait for others, or else
-/// the first of those that do. Those that need no further pass are taken out of `visitors`.
+/// The visitors of the next pass: all visitors that do not wait for others, or else the first that
+/// waits. Visitors that need no further pass are removed from `visitors`.
 std::vector<ScanVisitor*> begin_next_pass(std::vector<ScanVisitor*>& visitors, std::size_t slots) {
   std::vector<ScanVisitor*> shown;
   const auto needs_no_pass = [&](ScanVisitor* visitor) {
@@ -131,7 +131,7 @@ void run_all(const EvaluationInput& input, const MaskStore* masks, const std::st
         [&](std::size_t slot) {
           for (ScanVisitor* visitor : shown) visitor->take(slot);
         });
-    // What passes leave in many small pieces goes back to the system before the next tables come.
+    // Returns memory of small pieces to the system before the next tables are allocated.
     (void)malloc_trim(0);
   }
 }

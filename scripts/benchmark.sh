@@ -21,7 +21,7 @@ fail() {
   exit 2
 }
 
-# Paths are meant from where the script was called.
+# Relative paths start at the caller's folder.
 from_caller() {
   if [[ $1 == /* ]]; then echo "$1"; else echo "$caller/$1"; fi
 }
@@ -57,7 +57,7 @@ cmake --preset release -DRAYMOVAL_BUILD_KERNELS=ON >"$out/build.log" 2>&1 &&
   fail "the build failed, see $out/build.log (scripts/install_dependencies.sh installs what is needed)"
 
 kernels=build/release/raymoval_kernels
-# run NAME FLAGS...: one run into NAME.json; half a file never stands under that name.
+# run NAME FLAGS...: one run into NAME.json, which is never a partial file.
 run() {
   local name=$1
   shift

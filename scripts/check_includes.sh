@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Checks that the arrows between rooms, and between the folders of a room, point one way: each
-# includes only from itself and from what the table below names before it. No circle is possible.
+# Checks that includes between rooms (top folders), and between the folders of a room, go one way: each
+# includes only from itself and from entries before it in the table below. So there is no cycle.
 #
 #   scripts/check_includes.sh
 
-# A line is a room, or a folder of a room, with what is in it from below to above. `.` stands for the
-# files right in it, and NAME for the files right in NAME/, or for NAME.h and NAME.cpp. What is in a
-# folder below NAME/ belongs to NAME if NAME has a line of its own, which then orders it. Names that
-# `|` joins lie side by side: none includes from another, and `*` stands for all folders that the room's
-# lines do not name, side by side. What is not in the table is an error. A room may have several lines.
+# A line is a room, or a folder of a room, with its entries from lowest to highest. `.` is the files
+# directly in it, and NAME is the files directly in NAME/, or NAME.h and NAME.cpp. Folders below NAME/
+# belong to NAME if NAME has its own line, which orders them. Names that `|` joins must not include each
+# other, and `*` is all folders that the room's lines do not name, which must not include each other
+# either. A file that is not in the table is an error. A room may have several lines.
 rooms="core datasets|methods|eval benchmark python"
 folders="
 core                   . files process scan simd

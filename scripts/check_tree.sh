@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What is tracked is what belongs here: nothing unknown at the top level, no large file, nothing
-# binary but pictures and the fuzzers' inputs. Outputs of a run are added by accident easily.
+# Checks the tracked files: no unknown entry at the top level, no large file, no binary file except
+# pictures and the fuzzers' inputs. Outputs of a run are easily added by accident.
 #
 #   scripts/check_tree.sh [FOLDER]      default: this repository
 set -euo pipefail

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds everything with clang, whose warnings are errors, and lets its static analyser look through
-# the rooms that read, decide and count. CI does not run it: it takes twenty minutes on two cores.
+# Builds everything with clang, whose warnings are errors, and runs its static analyser on core,
+# datasets, eval and more. CI does not run it: it takes twenty minutes on two cores.
 #
 #   scripts/clang.sh                 build and analyse (Debian: clang clang-tidy)
 #   scripts/clang.sh build           the build only (build/clang)
 #   scripts/clang.sh analyse [FILE...]
-#                                    the analyser only; default: core, datasets, eval, and what runs
-#                                    methods in processes
-#   scripts/clang.sh tidy [FILE...]  the checks of .clang-tidy; default: all source files of the rooms
+#                                    the analyser only; default: core, datasets, eval, and the code that
+#                                    runs methods in processes
+#   scripts/clang.sh tidy [FILE...]  the checks of .clang-tidy; default: all source files
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
@@ -27,8 +27,7 @@ build() {
   cmake --preset clang >/dev/null && cmake --build --preset clang -- -k 0
 }
 
-# What is left out: numbers in floating point that grow from one round of a loop to the next are
-# meant where they stand.
+# FloatLoopCounter is disabled: loops over floating-point numbers are intended here.
 checks='-*,clang-analyzer-*,-clang-analyzer-security.FloatLoopCounter'
 
 analyse() {

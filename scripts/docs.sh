@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the documentation site: the pages of the repository, what the program says of its commands and
-# parameters, the Python package and the C++ headers (Doxygen), and the report of an example run. Then
-# it checks that every link and anchor leads somewhere and that nothing is fetched from elsewhere. A
-# warning is an error. It takes half a minute.
+# Makes the documentation site: the pages of the repository, the reference of commands and parameters,
+# the Python package and the C++ headers (Doxygen), and the report of an example run. Then it checks
+# that every link and anchor is valid and that no file is fetched from elsewhere. A warning is an
+# error. It takes half a minute.
 #
 #   scripts/docs.sh                      makes build/site; open build/site/index.html
 #   scripts/docs.sh --serve              also serves it at http://localhost:8000 until Ctrl-C
@@ -11,8 +11,8 @@
 #   scripts/docs.sh --without-report     without the report of an example run
 #   scripts/docs.sh --out FOLDER         makes FOLDER/site in place of build/site
 #
-# It needs Debian's packages mkdocs and mkdocs-material; Doxygen if it is there. The program is
-# build/release/raymoval, or what RAYMOVAL says.
+# It needs Debian's packages mkdocs and mkdocs-material; Doxygen is optional. The program is
+# build/release/raymoval, or the path in RAYMOVAL.
 set -euo pipefail
 
 serve="" cpp=1 report=1 out=build

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes docs/field.md's numbers anew: every family of methods on simulated scenes, with other sensors, at
-# lower rates, and in the hand (the suite `field`; about an hour and a half on two cores), and on the worlds made to be
-# hard (`field-hard`, twice as many cells), and how much answers gain by waiting (`field-delay`, a few minutes).
+# Recomputes the numbers of docs/field.md: every family of methods on simulated scenes, with other sensors, at
+# lower rates, and hand-held (the suite `field`; about an hour and a half on two cores), on difficult worlds
+# (`field-hard`, twice as many cells), and the gain of delayed answers (`field-delay`, a few minutes).
 #
-#   scripts/field.sh                 # runs the suite in out/field; a second call goes on where it was stopped
+#   scripts/field.sh                 # runs the suite in out/field; a second call resumes it
 #   scripts/field.sh DRIVE           # also a drive of yours at three rates, points from 2.7 m to 50 m
 #   JOBS=1 scripts/field.sh          # one cell at a time
-#   ONLY='*/raymoval_plus:*' scripts/field.sh DRIVE    # these cells anew, such as those of a method that has changed
+#   ONLY='*/raymoval_plus:*' scripts/field.sh DRIVE    # these cells again, such as after a change of a method
 #
 # It writes results/field/*.csv, results/delay/*.csv, the tables of docs/field.md, and the pictures of that page.
 set -euo pipefail

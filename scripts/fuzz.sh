@@ -4,9 +4,9 @@
 #
 #   scripts/fuzz.sh [SECONDS [TARGET...]]     default: 600 seconds each, all targets
 #
-# New inputs go to build/fuzz/found/TARGET; what breaks a parser to build/fuzz/findings/TARGET, and
-# then the exit code is 1. Put a finding into tests/fuzz/corpus/TARGET under a name that says what
-# it is: ctest plays it back from then on.
+# New inputs go to build/fuzz/found/TARGET. Inputs that break a parser go to build/fuzz/findings/TARGET,
+# and then the exit code is 1. Put a finding into tests/fuzz/corpus/TARGET under a descriptive name:
+# then ctest replays it.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 case ${1:-} in

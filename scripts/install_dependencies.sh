@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the packages of Debian or Ubuntu that raymoval is built with (docs/platforms.md: which were
-# tried). Only what is missing is installed; a second run changes nothing. On another system it says
-# what is missing there.
+# Installs the packages of Debian or Ubuntu that raymoval is built with (tested systems:
+# docs/platforms.md). Only missing packages are installed; a second run changes nothing. On another
+# system it lists the missing packages.
 #
-#   scripts/install_dependencies.sh            what building and running needs
-#   scripts/install_dependencies.sh --tests    also what scripts/test.sh needs
-#   scripts/install_dependencies.sh --python   also what the Python package is built with
-#   scripts/install_dependencies.sh --all      also what scripts/test.sh --all needs: LaTeX, Chromium, MkDocs,
+#   scripts/install_dependencies.sh            packages for building and running
+#   scripts/install_dependencies.sh --tests    also packages for scripts/test.sh
+#   scripts/install_dependencies.sh --python   also packages for building the Python package
+#   scripts/install_dependencies.sh --all      also packages for scripts/test.sh --all: LaTeX, Chromium, MkDocs,
 #                                              Snakemake and more
 #   scripts/install_dependencies.sh --without-pcl ...
 #                                              leaves out PCL: 138 MB to fetch and 0.56 GB installed in place of
@@ -83,8 +83,8 @@ if [[ $(id -u) -ne 0 ]]; then
   as_root=(sudo)
 fi
 
-# The package lists are fetched only if apt does not know the packages from earlier. Each is asked for by
-# itself: apt-cache is content if it knows one of several, and takes g++ for a pattern.
+# The package lists are fetched only if apt does not have the packages in its lists. Each package is queried
+# separately: apt-cache succeeds if it finds one of several, and takes g++ for a pattern.
 known_to_apt() { apt-cache show --no-all-versions "${1//+/\\+}" >/dev/null 2>&1; }
 for package in "${missing[@]}"; do
   known_to_apt "$package" || [[ $optional == *" $package "* ]] || lists=old

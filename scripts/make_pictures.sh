@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes the pictures of README.md, docs/ and methods/raymoval_plus/ anew, from simulated scenes, into
+# Makes the pictures of README.md, docs/ and methods/raymoval_plus/ from simulated scenes, in
 # results/pictures/.
 #
 #   scripts/make_pictures.sh            # builds what is missing, runs, draws: a few minutes

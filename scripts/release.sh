@@ -5,7 +5,7 @@
 # All is built from the archive, without network.
 #
 #   scripts/release.sh [--out DIR] [--twice] [--source-only]
-#     --out DIR       where the files go; it must not exist or be empty (default: build/dist)
+#     --out DIR       folder of the files; it must not exist or be empty (default: build/dist)
 #     --twice         builds a second time, in another folder without compiler cache, and compares bytes
 #     --source-only   makes only the source archive
 #
@@ -69,7 +69,7 @@ build_from() {
   mkdir -p "$2" "$3"
   tar -xJf "$1" -C "$2"
   local source=$2/$name build=$2/$name/build/release
-  # Nothing of a file tells where it was built, also if somebody adds -g or an assertion.
+  # Files do not contain their build folder, even with -g or an assertion.
   "${apart[@]}" cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$source=." -DRAYMOVAL_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON \
     -DRAYMOVAL_PYTHON=ON -DRAYMOVAL_REPORT_3D=ON >"$2/log.txt" 2>&1 &&

@@ -7,7 +7,7 @@
 #   scripts/reproduce.sh                             the suite `simulated`: six simulated scenes
 #   scripts/reproduce.sh semantickitti ROOT          the paper's Tables 2 and 3 from SemanticKITTI;
 #                                                    ROOT holds sequences/00, 01, 02, 05 and 07
-#   scripts/reproduce.sh semantickitti ROOT --check  only says what is there and what is missing
+#   scripts/reproduce.sh semantickitti ROOT --check  only lists the data that is there or missing
 #   RAYMOVAL_DATA=/data/kitti:kitti-05 scripts/reproduce.sh    your own sequence, see
 #                                                    `raymoval list sequences`
 #   RAYMOVAL_OUT=DIR                                 where results go (default: results/run-...)
@@ -18,12 +18,12 @@ set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Paths are meant from where the script was called.
+# Relative paths start at the caller's folder.
 from_caller() {
   if [[ $1 == /* ]]; then echo "$1"; else echo "$caller/$1"; fi
 }
 
-# check_segment ROOT SEQUENCE FIRST LAST STRIDE: prints what is missing, a line each.
+# check_segment ROOT SEQUENCE FIRST LAST STRIDE: prints missing files, one per line.
 check_segment() {
   local folder=$1/sequences/$2 frame kind extension missing first_missing=
   if [[ ! -d $folder ]]; then
@@ -52,7 +52,7 @@ check_segment() {
   done
 }
 
-# Checks all that the suite `semantickitti` reads. Exit code 2 if anything is missing.
+# Checks all data of the suite `semantickitti`. Exit code 2 if any is missing.
 check_semantickitti() {
   local root=$1 found missing=0 segment
   # The segments of the ERASOR protocol, ends included.
@@ -121,7 +121,7 @@ if [[ ${#what[@]} -gt 0 ]]; then
   :
 elif [[ -n ${RAYMOVAL_DATA:-} ]]; then
   data=$RAYMOVAL_DATA
-  # Names of built-in scenes stay as they are.
+  # Names of built-in scenes are not paths.
   scene=${data%%:*}
   if [[ $scene != street ]] && ! grep -q "^$scene " <<<"$(build/release/raymoval list scenes)"; then
     data=$(from_caller "$data")
@@ -143,7 +143,7 @@ memory_gib=$(awk '/^MemTotal:/ { print int($2 / 1048576) }' /proc/meminfo)
 jobs=$((memory_gib / 2 < cores ? memory_gib / 2 : cores))
 [[ $jobs -ge 1 && $label != semantickitti ]] || jobs=1
 what+=(--jobs "${RAYMOVAL_JOBS:-$jobs}")
-# --overwrite: the folder is for this one result. Cells that are still right are kept all the same.
+# --overwrite: the folder is for this result only. Cells that are still valid are kept.
 if [[ -n $quick ]]; then
   build/release/raymoval run "${what[@]}" --keep-removals --overwrite --out "$out"
   build/release/raymoval report "$out" --quiet

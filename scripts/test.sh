@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is needed, builds, and runs the tests. It goes on after a failure; the last line is
+# Installs dependencies, builds, and runs the tests. It continues after a failure; the last line is
 # "N passed, N failed". Before a change is merged, run scripts/test.sh and then scripts/test.sh --all.
 #
 #   scripts/test.sh         builds with -O2, and runs all unit tests, the tests of the commands, and the

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Looks for races, and for answers that depend on the number of threads. CI does not run it: it takes
-# half an hour on two cores.
+# Detects races, and answers that depend on the number of threads. CI does not run it: it takes half
+# an hour on two cores.
 #
 #   scripts/threads.sh                       both of the following, masks on the scene `town`
 #   scripts/threads.sh races [REGEX]         ThreadSanitizer (build/tsan): the unit tests of loops, child
@@ -15,15 +15,15 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-# Says what went wrong, and goes on.
+# Reports a failure and continues.
 status=0
 failed() {
   echo "threads.sh: $1" >&2
   status=1
 }
 
-# sanitized COMMAND...: without the random places of memory that ThreadSanitizer cannot work with.
-# Reports go to files, for what a child process prints is not always shown.
+# sanitized COMMAND...: without address space randomisation, which ThreadSanitizer does not support.
+# Reports go to files, because the output of child processes is not always shown.
 suppressions=$PWD/tests/threads/libraries.supp
 reports=$PWD/build/tsan/races
 sanitized() {
@@ -63,7 +63,7 @@ watches() {
     ! TSAN_OPTIONS="" setarch -R build/tsan/raymoval_planted_race between-chunks >/dev/null 2>&1
 }
 
-# Names of the unit tests of what runs in parallel.
+# Names of the unit tests of parallel code.
 in_parallel='[Tt]hread|Chunks|index is visited|lowest chunk|: a child|: all that a forking'
 in_parallel+='|foreseen|at once|[Jj]obs|more passes|maps added up'
 in_parallel+='|: external|[Rr]uns? (give|is|are|has|that)|cancelled|progress'

@@ -65,7 +65,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path);
 /// `path` without a slash at its end, which would follow a link and hide its last name.
 std::filesystem::path without_slash(const std::filesystem::path& path);
 
-/// The result of `read`; nothing if the file is absent or damaged.
+/// The result of `read`; empty if the file is absent or damaged.
 /// @throws UnreadableError, which means neither
 template <class Read>
 std::optional<std::invoke_result_t<Read>> if_whole(Read&& read) {

@@ -21,7 +21,7 @@ std::string host_name() {
 }
 
 /// Whether the system's error number means that a file system has no locks at all. ENOLCK does not:
-/// a lock server that cannot be asked now may have given the lock to somebody before.
+/// a lock server that does not respond may have given the lock to another process before.
 bool means_no_locks(int reason) {
   return reason == ENOSYS || reason == ENOTSUP || reason == EINVAL;
 }
@@ -30,7 +30,7 @@ bool means_no_locks(int reason) {
 
 FileLock::~FileLock() {
   if (!file_.valid()) return;
-  // The last one who shares it takes the file away; whoever waits looks at its name again.
+  // The last holder removes the file; waiting processes check its name again.
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) {
     if (is_still_there()) ::unlink(path_.c_str());
   } else if (means_no_locks(errno)) {
@@ -68,7 +68,7 @@ void FileLock::open() {
   if (!is_new_) file_ = Descriptor(::open(path_.c_str(), kFlags, 0666));
   if (file_.valid()) return;
   const int reason = errno;
-  // Another user's lock file; locks work on it all the same, but on some network file systems.
+  // Another user's lock file: locks work on it, except on some network file systems.
   if (reason == EACCES) {
     file_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
     if (file_.valid()) return;
@@ -101,7 +101,7 @@ std::string FileLock::holder() const {
 
 void FileLock::write_holder() const {
   const std::string text = "process " + std::to_string(::getpid()) + " on " + host_name() + "\n";
-  // Only for a message: a full disk is told where something is lost by it.
+  // Only for a message, so a full disk is ignored here.
   if (::ftruncate(file_.get(), 0) != 0) return;
   [[maybe_unused]] const ssize_t put = ::pwrite(file_.get(), text.data(), text.size(), 0);
 }

@@ -22,14 +22,14 @@ std::string reason_text(int reason) {
   return std::generic_category().message(reason);
 }
 
-/// Gives a file the owner and the rights of the one whose place it takes, as far as the system
-/// allows that. It was made for its owner alone, so that nobody else gets more.
+/// Gives a file the owner and the rights of the file that it replaces, as far as the system allows
+/// that. It was made for its owner alone, so that no other user gets more rights.
 void keep_owner_and_rights(int file, const struct stat& before) {
   // The owner first, because that may take rights away.
   const bool owner = ::fchown(file, before.st_uid, before.st_gid) == 0;
   const bool group = owner || ::fchown(file, static_cast<uid_t>(-1), before.st_gid) == 0;
   mode_t rights = before.st_mode & 0777U;
-  // Rights of the group before are not those of another one.
+  // Rights of the old group are not given to another group.
   if (!group) rights &= ~070U | (rights & 07U) << 3U;
   [[maybe_unused]] const int kept = ::fchmod(file, rights);  // Some file systems have no rights.
 }
@@ -45,7 +45,7 @@ Part part_like(const std::filesystem::path& target) {
   return part;
 }
 
-/// Not valid where the folder may not be read; what is in it can be written all the same.
+/// Not valid if the folder may not be read; files in it may still be writable.
 Descriptor opened_folder(const std::filesystem::path& folder) {
   Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.valid() || errno == EACCES) return opened;
@@ -55,7 +55,7 @@ Descriptor opened_folder(const std::filesystem::path& folder) {
 
 void sync_names(const Descriptor& opened, const std::filesystem::path& folder) {
   if (!opened.valid() || ::fsync(opened.get()) == 0) return;
-  // A file system that cannot do this has its own ways.
+  // A file system without this operation manages rights itself.
   if (errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return;
   throw DataError(folder.string() + ": it cannot be synchronised to the disk (" +
                   reason_text(errno) +

@@ -34,8 +34,8 @@ struct OpenFile {
 };
 
 OpenFile open_plain(const std::filesystem::path& path) {
-  // A pipe would be waited for and a device may act, so they are not even opened; nothing is waited
-  // for either if the name becomes one of these between the two calls.
+  // Opening a pipe would block and opening a device may have effects, so these are not opened. The
+  // call does not block either if the name becomes one of these between the two calls.
   if (is_folder(path)) throw DataError(path.string() + ": is a folder, expected a file.");
   OpenFile opened{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))};
   struct stat status {};
@@ -61,7 +61,7 @@ void read_into(const OpenFile& opened, std::uintmax_t offset, Container& content
       ": became shorter while it was read. Wait until the program that writes it has ended.");
 }
 
-/// Refuses what cannot be read whole. A copy that broke off may have any size: it then has holes.
+/// Refuses a file that cannot be read whole. An interrupted copy may have any size, but has holes.
 void check_can_be_read_whole(const OpenFile& opened, const std::filesystem::path& path) {
   constexpr std::uintmax_t kLarge = std::uintmax_t{1} << 30;
   if (opened.size < kLarge) return;

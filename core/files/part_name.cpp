@@ -33,8 +33,8 @@ constexpr std::size_t kRandomDigits = 16;
 constexpr std::size_t kAllDigits = kKernelDigits + kRandomDigits;
 constexpr std::size_t kTail = kMark.size() + kAllDigits + kEnd.size();
 
-/// Digits that the running kernel has since its start; containers of one machine share it. Empty if
-/// the system does not tell.
+/// Digits of the running kernel since its start. Containers of one machine share them. Empty if
+/// unknown.
 const std::string& running_kernel() {
   static const std::string digits = [] {
     std::ifstream boot("/proc/sys/kernel/random/boot_id");
@@ -61,14 +61,14 @@ bool locks(int file) {
   return ::flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 
-/// What became of a part before it was locked.
+/// The state of a part before it was locked.
 enum class Kept {
   kYes,
-  kLost,     ///< Somebody took it for abandoned meanwhile.
-  kUnknown,  ///< The system does not tell, with the reason in errno.
+  kLost,     ///< Another process removed it as abandoned.
+  kUnknown,  ///< The system reported an error, in errno.
 };
 
-/// Locks a part that was made. A file system without locks lets nobody take it.
+/// Locks a new part. On a file system without locks, no process can take it.
 Kept keep(int file) {
   if (!locks(file) && errno == EWOULDBLOCK) return Kept::kLost;
   struct stat status {};
@@ -84,7 +84,7 @@ void discard(Part& part) {
   errno = reason;
 }
 
-/// Nothing of a folder that cannot be listed: what was left there stays.
+/// The entries of a folder; none if it cannot be listed, so that its old parts stay.
 std::vector<fs::path> entries_or_none(const fs::path& folder) {
   try {
     return entries_of(folder);
@@ -93,14 +93,14 @@ std::vector<fs::path> entries_or_none(const fs::path& folder) {
   }
 }
 
-/// The part names that stand in a folder.
+/// The part names in a folder.
 std::vector<fs::path> parts_in(const fs::path& folder) {
   std::vector<fs::path> parts = entries_or_none(folder);
   std::erase_if(parts, [](const fs::path& entry) { return !is_part_name(entry); });
   return parts;
 }
 
-/// The part names that stood in a folder when this process first asked.
+/// The part names in a folder at the first call of this process.
 const std::vector<fs::path>& earlier_parts(const fs::path& folder) {
   static std::mutex mutex;
   static std::map<fs::path, std::vector<fs::path>> known;
@@ -114,7 +114,7 @@ bool is_part_of(const fs::path& part, const fs::path& target) {
   return name_of_part(part) == without_slash(target).filename();
 }
 
-/// Removes what dead processes left of `target` before this process first asked.
+/// Removes parts of `target` that dead processes left before the first call for its folder.
 void remove_earlier_parts(const fs::path& target) {
   for (const fs::path& part : earlier_parts(folder_of(target))) {
     if (is_part_of(part, target)) remove_abandoned_part(part);

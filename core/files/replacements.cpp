@@ -25,7 +25,7 @@ bool renames(const fs::path& from, const fs::path& to, unsigned how = 0) {
   return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
 }
 
-/// Whether one can take the other's place: what is another kind of thing than expected is not ours.
+/// Whether one can replace the other. An entry of an unexpected kind is not the program's.
 /// Else errno has the reason.
 bool may_replace(const fs::path& part, const fs::path& target) {
   struct stat ours {};
@@ -65,7 +65,7 @@ bool Replacements::give_name(One& one) {
   }
   if (errno != EINVAL && errno != ENOSYS) return false;
   // A second name keeps the file before; a folder can have only one.
-  // Under no part's name: if this process ends here, nobody takes it for something unfinished.
+  // Not under a part's name: if this process ends here, no process takes it for an unfinished file.
   one.aside = new_part_name(one.target).replace_extension(".before");
   const bool linked = ::link(one.target.c_str(), one.aside.c_str()) == 0;
   if (!linked && !renames(one.target, one.aside)) return false;

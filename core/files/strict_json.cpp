@@ -18,7 +18,7 @@ std::string place_text(const std::string& text, std::size_t byte) {
   return "line " + std::to_string(line) + ", column " + std::to_string(at - line_start + 1);
 }
 
-/// Sees each part of a text as it is read.
+/// Checks each part of a text while it is parsed.
 template <class Json>
 class Checker {
  public:

@@ -30,9 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTickMs = 20;
 
-/// What the files below a folder take on the disk, with those on the same disk that `members` hold
-/// open and that have no name any more. Files come and go meanwhile: what cannot be looked at does
-/// not count.
+/// Size on the disk of the files below a folder, and of deleted files on the same disk that
+/// `members` hold open. Files may disappear meanwhile: a file that cannot be read does not count.
 double folder_size_mib(const std::filesystem::path& folder, const std::vector<pid_t>& members) {
   namespace fs = std::filesystem;
   constexpr auto kSkip = fs::directory_options::skip_permission_denied;
@@ -45,7 +44,7 @@ double folder_size_mib(const std::filesystem::path& folder, const std::vector<pi
       mib += size_mib(status);
     }
   } catch (const fs::filesystem_error&) {
-    // A folder went away; the next look sees what is left.
+    // A folder disappeared; the next measurement has the rest.
   }
   struct stat own {};
   if (::stat(folder.c_str(), &own) != 0) return mib;
@@ -59,7 +58,7 @@ double folder_size_mib(const std::filesystem::path& folder, const std::vector<pi
   return mib;
 }
 
-/// Watches a running child until it ends or has to be ended.
+/// Watches a running child until it ends or must be ended.
 class ChildWatch {
  public:
   ChildWatch(const ChildSetup& setup, StartedChild child, const FosterParent& foster)
@@ -94,7 +93,7 @@ class ChildWatch {
   }
 
  private:
-  /// Whether it has ended. It stays a zombie, so that its number is not used again.
+  /// Whether the child has ended. It stays a zombie, so that its number is not used again.
   [[nodiscard]] bool has_ended() const {
     siginfo_t info{};
     const int got = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
@@ -127,7 +126,7 @@ class ChildWatch {
   void stop(ChildEnd::Kind kind) {
     stopped_ = true;
     end_.kind = kind;
-    note_output();  // Not what the child says while its descendants are ended.
+    note_output();  // Without output while its descendants are ended.
     family_.end();
   }
 

@@ -32,8 +32,8 @@ struct ChildSetup {
   /// {this process's, the child's}: 3 and above, or 1 and 2 for output that is not to be caught.
   std::vector<std::pair<int, int>> descriptors = {};
   ChildLimits limits = {};
-  /// The child is ended when this becomes true. If somebody else ended the child, it is given a
-  /// fifth of a second for it: a system that shuts down may signal the child before this process.
+  /// The child is ended when this becomes true. If another process ended the child, the call waits
+  /// a fifth of a second for it: a system that shuts down may signal the child before this process.
   const std::atomic<bool>* cancel = nullptr;
 };
 

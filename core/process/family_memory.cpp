@@ -28,8 +28,8 @@ bool is_earlier(const timespec& a, const timespec& b) {
   return std::pair(a.tv_sec, a.tv_nsec) < std::pair(b.tv_sec, b.tv_nsec);
 }
 
-/// Whether an open file has no disk. The way to it below /proc leads to the file itself, whatever
-/// became of its name.
+/// Whether an open file has no disk. Its path below /proc leads to the file itself, also after the
+/// file was renamed or deleted.
 bool is_in_memory(const std::string& descriptor) {
   struct statfs system {};
   if (::statfs(descriptor.c_str(), &system) != 0) return false;
@@ -46,7 +46,7 @@ void add_open_files(pid_t process, const timespec& began, FileSizes& files) {
   }
 }
 
-/// Takes away those that a process has mapped: their pages are among its shared memory.
+/// Removes the files that a process has mapped: its shared memory includes their pages.
 void remove_mapped_files(pid_t process, FileSizes& files) {
   std::ifstream maps(proc_folder(process) / "maps");
   for (std::string line; !files.empty() && std::getline(maps, line);) {
@@ -87,7 +87,7 @@ void FamilyMemory::follow_clock() {
   constexpr long kSecond = 1'000'000'000;
   const auto since = std::chrono::duration_cast<nanoseconds>(Pace::Clock::now() - last_look_);
   last_look_ += since;
-  // What the clock would have said at the last look.
+  // The expected time of the clock at the last measurement.
   timespec then = clock_();
   then.tv_sec -= since.count() / kSecond;
   then.tv_nsec -= since.count() % kSecond;

@@ -22,7 +22,7 @@ constexpr int kHighestScore = 1000;
 struct Families {
   std::mutex mutex;
   int count = 0;
-  int was_foster_parent = 0;  ///< Whether this process was one before the first of them.
+  int was_foster_parent = 0;  ///< Whether this process was one before the first family.
   std::set<pid_t> heads;
 };
 
@@ -65,7 +65,7 @@ void FosterParent::set_head(pid_t head) {
 std::vector<pid_t> FosterParent::foster_children() const {
   Families& all = families();
   const std::lock_guard lock(all.mutex);
-  // Who starts a family is counted before, so that its head is not taken for a foster child.
+  // A family is counted before its head starts, so that the head is not taken for a foster child.
   if (all.count > 1 || score_of("/proc/self") >= score_) return {};
   std::vector<pid_t> found;
   for (const pid_t child : children_of(::getpid())) {

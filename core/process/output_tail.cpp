@@ -30,7 +30,7 @@ void OutputTail::drain() {
 
 std::string OutputTail::text() const {
   if (text_.size() <= kTailBytes) return text_;
-  // One byte more than the tail: it tells whether the tail starts a line.
+  // The byte before the tail shows whether the tail starts a line.
   const std::string tail = text_.substr(text_.size() - kTailBytes - 1);
   const std::size_t line = tail.find('\n');
   return tail.substr(line == std::string::npos || line + 1 == tail.size() ? 1 : line + 1);

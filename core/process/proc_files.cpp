@@ -25,7 +25,7 @@ std::vector<std::string> names_now(const fs::path& folder) {
       names.push_back(entry.path().filename().string());
     }
   } catch (const fs::filesystem_error&) {
-    // Its process ended; the names so far are those that were seen.
+    // The process ended; the names found up to now are returned.
   }
   return names;
 }
@@ -79,7 +79,7 @@ ProcessState process_state(pid_t process) {
   std::string text;
   std::getline(file, text, '\0');
   ProcessState state;
-  // The name of the program stands in parentheses and may hold blanks and parentheses itself.
+  // The name of the program is in parentheses and may contain blanks and parentheses.
   const std::size_t name_end = text.rfind(')');
   if (name_end == std::string::npos) return state;
   std::istringstream fields(text.substr(name_end + 1));

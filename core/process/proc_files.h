@@ -47,23 +47,22 @@ std::vector<pid_t> children_of(pid_t process);
 /// The same, from the parents of all processes.
 std::vector<pid_t> children_by_parent(pid_t process);
 
-/// A regular file that a process holds open, whatever became of its name.
+/// A regular file that a process holds open; it may be renamed or deleted.
 struct OpenFile {
   std::string path;  ///< Below /proc; it leads to the file itself.
   struct stat status;
 };
-/// Those that may be looked at.
+/// The open files of a process that this process may read.
 std::vector<OpenFile> open_files(pid_t process);
 
-/// What a file takes on its disk or in memory.
+/// Size of a file on its disk or in memory.
 double size_mib(const struct stat& status);
 
 /// The memory of the machine in MiB, or of the control group if that has less. It is 0 if it is
 /// unknown.
 double machine_memory_mib();
 
-/// The limit on memory, in MiB, that holds where the user gives none: nine tenths of
-/// `machine_memory_mib`.
+/// The default limit on memory, in MiB: nine tenths of `machine_memory_mib`.
 double usual_memory_limit_mib();
 
 }  // namespace raymoval

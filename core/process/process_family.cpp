@@ -36,7 +36,7 @@ std::string innermost_mark() {
   return text.substr(text.rfind(' ') + 1);
 }
 
-/// What tells this process the end of its parent: no signal that anybody else sends.
+/// The signal at the end of the parent. No other process sends this signal.
 int parent_signal() {
   return SIGRTMIN;
 }
@@ -99,11 +99,11 @@ void ProcessFamily::end() const {
     const Members members = found_members();
     for (const pid_t process : members.living) ::kill(process, SIGKILL);
     bool quiet = members.living.empty();
-    // Who has ended since the last look may have started another one after it was looked for.
+    // A member that has ended since the last search may have started another process after it.
     for (const pid_t process : members.ended) quiet &= !known_ended.insert(process).second;
     const auto took = std::chrono::steady_clock::now() - started;
     if (has_head && (quiet || took > kPatienceWithHead)) {
-      ::kill(-head_, SIGKILL);  // Its process group: at once, whatever it does meanwhile.
+      ::kill(-head_, SIGKILL);  // Its whole process group at once.
       ::kill(head_, SIGKILL);
       has_head = false;
     } else if (quiet || took > kMostPatience) {

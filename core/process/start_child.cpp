@@ -41,7 +41,7 @@ std::string new_mark() {
                      std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
-/// The environment of this process with that of the child on top.
+/// The environment of this process, with the child's variables replacing equal names.
 std::vector<std::string> environment_of(const ChildSetup& setup, const std::string& mark) {
   auto added = setup.environment;
   const char* marks = std::getenv(kFamilyVariable);
@@ -64,7 +64,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// All that the child needs between fork and exec, where it may not allocate memory.
+/// Data of the child between fork and exec, where it may not allocate memory.
 struct Prepared {
   std::string program, folder, oom_score;
   std::vector<std::string> arguments, environment;
@@ -84,7 +84,7 @@ struct Prepared {
         spare(descriptors.size(), -1) {}
 };
 
-/// What this process blocks or ignores is not the child's.
+/// Resets signals that this process blocks or ignores.
 void reset_signals() {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
   sigset_t none;
@@ -92,15 +92,15 @@ void reset_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// The same descriptor above those that a child is given. @return -1 if there are too many
+/// A copy of a descriptor above the child's descriptors. @return -1 if there are too many
 int spare_copy(int descriptor) {
   const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstSpare);
   if (copy < 0 && errno == EINVAL) errno = EMFILE;  // The limit is below the first of them.
   return copy;
 }
 
-/// Gives the child the descriptors it is meant to have and no other. @return false, with the reason
-/// in errno, if that is not possible
+/// Sets the child's descriptors and closes all others. @return false, with the reason in errno, if
+/// that is not possible
 bool place_descriptors(Prepared& prepared, int output) {
   // First out of the way, then into place: a source may have the number of another's place.
   for (std::size_t i = 0; i < prepared.spare.size(); ++i) {
@@ -118,14 +118,14 @@ bool place_descriptors(Prepared& prepared, int output) {
   return true;
 }
 
-/// Tells the parent why the child cannot be what it was meant to be.
+/// Reports to the parent why the child cannot start, and exits.
 [[noreturn]] void give_up(int report) {
   const int reason = errno;
   (void)!::write(report, &reason, sizeof reason);
   ::_exit(127);
 }
 
-/// All that the child starts inherits it, from the first process on.
+/// Sets the score of the child; all its descendants inherit it.
 void set_oom_score(const std::string& score) {
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   (void)!::write(file, score.data(), score.size());

@@ -18,7 +18,7 @@ struct StartedChild {
   std::string mark;    ///< Of its family, see `ProcessFamily`.
 };
 
-/// Starts a child process as `run_child` says.
+/// Starts a child process, see `run_child`.
 /// @param oom_score_adj of the child and, since it is inherited, of all processes that it starts
 StartedChild start_child(const ChildSetup& setup, int oom_score_adj);
 

@@ -20,7 +20,7 @@ inline float confidence_of_steps(std::uint8_t steps) {
   return static_cast<float>(steps) / static_cast<float>(kConfidenceSteps);
 }
 
-/// How sure a method is that each point moves: steps by scan, a byte for each point.
+/// The confidence of a method that each point moves: steps by scan, a byte per point.
 struct ConfidenceStore {
   ScanSpool steps;  ///< Of no scan if confidence was not requested or the method has none.
 

@@ -14,9 +14,9 @@
 namespace raymoval {
 namespace {
 
-constexpr std::size_t kFewest = 100;  ///< Directions that a pattern can be told from.
+constexpr std::size_t kFewest = 100;  ///< Least number of directions for a pattern.
 constexpr double kLeastStep = 0.02 * kDegree, kWidestStep = 3.0 * kDegree;
-constexpr double kReach = 2.0 * kWidestStep;  ///< How far partners are looked for.
+constexpr double kReach = 2.0 * kWidestStep;  ///< Search radius for partners.
 /// Visits of neighbours in all; keeps the time within a second for any number of points.
 constexpr double kMostVisits = 1e7;
 constexpr std::size_t kMostSamples = 4000;
@@ -35,8 +35,8 @@ std::size_t samples_for(const Directions& scan, double reach, std::size_t scans)
   return std::clamp(static_cast<std::size_t>(most), std::size_t{50}, kMostSamples);
 }
 
-/// Whether a neighbour lies beside a direction at `elevation`, as points of one beam do; room for
-/// beams that are a little inclined.
+/// Whether a neighbour is beside a direction at `elevation`, like points of one beam; with a margin
+/// for slightly inclined beams.
 bool beside(double azimuth, double rise, double elevation) {
   constexpr double kSlope = 0.25, kNoise = 0.02 * kDegree;
   return std::abs(rise) <= kSlope * azimuth * std::cos(elevation) + kNoise;
@@ -46,7 +46,7 @@ bool beside(double azimuth, double rise, double elevation) {
 class PartnerShares {
  public:
   static constexpr std::size_t kBins = 144;
-  static constexpr double kWidth = 0.04;  ///< Of a bin, as a part of its distance.
+  static constexpr double kWidth = 0.04;  ///< Of a bin, relative to its distance.
 
   void add(const Directions& scan, std::size_t samples) {
     for (const std::size_t i : scan.sample(samples)) {
@@ -97,7 +97,7 @@ class PartnerShares {
     return static_cast<int>(std::floor(std::log(azimuth / kLeastStep) / kWidth));
   }
 
-  /// Steps of one sensor differ by a part of themselves and by the noise of its directions.
+  /// Steps of one sensor differ by a relative part and by the noise of its directions.
   static void set_about(double azimuth, std::bitset<kBins>& partners) {
     constexpr double kPart = 0.06, kNoise = 0.015 * kDegree;
     const double part = std::max(kPart * azimuth, std::min(kNoise, 0.25 * azimuth));
@@ -107,7 +107,7 @@ class PartnerShares {
     }
   }
 
-  /// A peak is as wide as what counts as one step.
+  /// A peak is as wide as the tolerance of one step.
   [[nodiscard]] std::size_t middle_of_peak(std::size_t bin) const {
     constexpr double kLevel = 0.95;
     std::size_t first = bin, last = bin;
@@ -135,8 +135,8 @@ class PartnerShares {
   double samples_ = 0.0;
 };
 
-/// Azimuth step as the median of what is near `step`, and how much the elevation of a beam
-/// changes from one column to the next.
+/// Azimuth step as the median of the steps near `step`, and the change of a beam's elevation from
+/// one column to the next.
 std::pair<double, double> refined(const std::vector<Directions>& scans, double step) {
   constexpr double kNear = 0.08;
   std::vector<double> steps, rises;
@@ -258,7 +258,7 @@ void find_beams(const std::vector<Gap>& gaps, double low, double high, Direction
   while (pattern.beams < kMostBeams) {
     double next = usual_rise(gaps, at, kSameBeam * rise);
     if (next >= kNoRise) {
-      // Nothing was seen above this beam in its columns: on to what was seen elsewhere.
+      // Its columns have no direction above this beam: continue with other columns.
       const auto above = first_from(gaps, at + kSameBeam * rise);
       if (above == gaps.end()) break;
       next = above->elevation - at;

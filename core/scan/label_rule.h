@@ -25,7 +25,7 @@ struct LabelRule {
   std::vector<std::uint16_t> ignored = {};
   ClassNames class_names = semantickitti_class_names();
 
-  /// What `id` is called; "label-7" for an id without a name.
+  /// The name of `id`; "label-7" for an id without a name.
   [[nodiscard]] std::string class_name(std::uint16_t id) const;
   [[nodiscard]] LabelClass classify(std::uint32_t word) const;
 };
@@ -33,7 +33,7 @@ struct LabelRule {
 /// The name of a rule that needs no file: an object moves only in the scans in which it is in
 /// motion. Only some data has this information.
 inline constexpr const char* kMovingNow = "moving-now";
-/// Whether a rule so named is in a file.
+/// Whether `rule` names a file.
 inline bool is_rule_file(const std::string& rule) {
   return rule != kMovingNow;
 }

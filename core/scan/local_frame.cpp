@@ -16,7 +16,7 @@ Eigen::Matrix3d turn_to_z(const Eigen::Vector3d& up) {
   if ((up - z).norm() < kExact) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3d turn;
   const double cosine = z.dot(up.normalized());
-  if (cosine < -1.0 + kExact) {  // Downward: any axis that is level will do.
+  if (cosine < -1.0 + kExact) {  // Downward: any horizontal axis.
     turn = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
   } else {
     // As Quaterniond::FromTwoVectors, whose case of opposite vectors takes seconds to compile.

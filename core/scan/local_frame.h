@@ -35,27 +35,27 @@ class LocalFrameSource : public ScanSource {
   Pose T_local_world_;
 };
 
-/// The shortest turn that brings `up` to +z; whole quarter turns are exact.
+/// The shortest rotation that maps `up` to +z; multiples of 90 degrees are exact.
 /// @param up unit vector
 Eigen::Matrix3d turn_to_z(const Eigen::Vector3d& up);
 
 /// The frame that methods run in: its origin is the position of the first scan, exactly, and its z
-/// axis points to `up`. Where `up` is the world's +z, nothing is turned.
+/// axis points to `up`. If `up` is the world's +z, there is no rotation.
 /// @param up unit vector of the world frame of `scans`
 /// @return T_local_world; the identity without scans
 Pose method_frame(const ScanSource& scans, const Eigen::Vector3d& up);
 
-/// Where scores, pictures and pages have their origin: the first scan's position rounded to whole
-/// kilometres, or the world's own origin if the first scan is within `kFarFromOrigin` of it. Voxels
+/// The origin of scores, pictures and pages: the first scan's position rounded to whole
+/// kilometres, or the world's origin if the first scan is within `kFarFromOrigin` of it. Voxels
 /// whose size divides a kilometre are the same cells from either origin, so counts do not depend
 /// on it.
 Eigen::Vector3d lattice_origin(const ScanSource& scans);
 
-/// Metres along any axis. Within it single precision holds a millimetre, and the keys of voxels (21
-/// bits an axis) all a scan may see in voxels down to 0.01 m.
+/// Metres along any axis. Within this distance, single precision resolves a millimetre, and voxel
+/// keys (21 bits per axis) cover a scan in voxels down to 0.01 m.
 inline constexpr double kFarFromOrigin = 8000.0;
 
-/// The motion that takes `lattice_origin` to zero and turns nothing.
+/// The translation that maps `lattice_origin` to zero.
 Pose lattice_frame(const ScanSource& scans);
 
 }  // namespace raymoval

@@ -27,7 +27,7 @@ constexpr std::size_t kBits = 64;
 constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
 constexpr std::uint64_t kAllBits = ~std::uint64_t{0};
 
-/// How many words hold so many bits.
+/// Number of words for `bits` bits.
 constexpr std::size_t words_for(std::size_t bits) {
   return (bits + kBits - 1) / kBits;
 }

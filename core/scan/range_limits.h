@@ -4,7 +4,7 @@
 namespace raymoval {
 
 /// 3-D distances from the sensor in metres, both ends included. Points outside are not evaluated;
-/// methods still see them.
+/// methods still get them.
 struct RangeLimits {
   double min = 0.0;
   double max = 1e300;

@@ -10,12 +10,12 @@
 
 namespace raymoval {
 
-/// Scans one by one; nothing behind this interface holds all of them. Calls are thread-safe.
+/// Scans one by one; no implementation holds all scans in memory. Calls are thread-safe.
 class ScanSource {
  public:
   virtual ~ScanSource() = default;
-  [[nodiscard]] virtual std::size_t size() const = 0;  ///< How many scans there are.
-  /// Scan `index` (< size()). @throws DataError naming the file and what is wrong with it.
+  [[nodiscard]] virtual std::size_t size() const = 0;  ///< Number of scans.
+  /// Scan `index` (< size()). @throws DataError naming the file and its fault.
   [[nodiscard]] virtual Scan load(std::size_t index) const = 0;
   /// `T_world_sensor` of scan `index`, without reading its points.
   [[nodiscard]] virtual Pose pose(std::size_t index) const = 0;

@@ -36,7 +36,7 @@ ScanSpool::ScanSpool(std::size_t scans, const std::filesystem::path& beside,
   Part part = new_part_file(beside, 0600);
   if (!part.held.valid()) file_->fail("cannot be made");
   file_->content = std::move(part.held);
-  ::unlink(part.place.c_str());  // It lives as long as it is open.
+  ::unlink(part.place.c_str());  // The file exists until it is closed.
 }
 
 void ScanSpool::put(std::size_t scan, std::string piece) {

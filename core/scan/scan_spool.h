@@ -17,7 +17,7 @@ class ScanSpool {
   /// Keeps the pieces in memory.
   ScanSpool() = default;
   explicit ScanSpool(std::size_t scans) : pieces_(scans) {}
-  /// Keeps the pieces in a file, which is gone when the program ends, however it ends.
+  /// Keeps the pieces in a file that is deleted when the program ends, even if it is killed.
   /// @param beside a path; the file is made in its folder
   /// @param what the pieces are, for messages: "masks"
   /// @throws DataError if the file cannot be made
@@ -32,7 +32,7 @@ class ScanSpool {
   void append(std::string piece);
   /// The piece of a scan; empty if there is none. @throws DataError if the file cannot be read
   [[nodiscard]] std::string get(std::size_t scan) const;
-  /// What the pieces take in memory.
+  /// Memory of the pieces, bytes.
   [[nodiscard]] std::size_t bytes() const;
 
  private:

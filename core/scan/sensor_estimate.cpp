@@ -27,7 +27,7 @@ double quantile_of(std::vector<double>& angles, double quantile) {
 /// The middle of the widest arc in which there is next to nothing, radians; pi if none is wide
 /// enough to be a limit of the sensor.
 double cut_of(const std::vector<double>& azimuths) {
-  constexpr int kArcs = 720, kLeastArcs = 20;  // A wide one has at least 10 degrees.
+  constexpr int kArcs = 720, kLeastArcs = 20;  // A wide gap has at least 10 degrees.
   constexpr double kNothing = 0.01;            // Of the mean number of points in an arc.
   std::array<double, kArcs> counts = {};
   for (const double azimuth : azimuths) {
@@ -47,7 +47,7 @@ double cut_of(const std::vector<double>& azimuths) {
   return (end - 0.5 * widest) / kArcs * kTurn - std::numbers::pi;
 }
 
-/// All directions of some scans and what is said of them together.
+/// All directions of some scans, and their common bounds.
 struct Seen {
   std::vector<Directions> scans;
   std::vector<double> azimuths, elevations;
@@ -89,8 +89,8 @@ bool near(double a, double b) {
   return std::abs(a - b) <= kPart * b;
 }
 
-/// The known sensor whose steps and field of view are those of `pattern`, if there is one. Where
-/// nothing stands above or below, less is seen than the sensor can see.
+/// The known sensor with the steps and field of view of `pattern`, if there is one. Without objects
+/// above or below, the observed field of view is smaller than the sensor's.
 std::optional<SensorModel> recognised(const DirectionPattern& pattern, double low, double high) {
   constexpr double kMargin = 2.0 * kDegree;
   if (pattern.kind != DirectionPattern::Kind::kColumns) return {};

@@ -8,7 +8,7 @@
 
 namespace raymoval {
 
-/// What is known of the sensor. Angles in radians in the sensor frame (azimuth counter-clockwise
+/// The properties of the sensor. Angles in radians in the sensor frame (azimuth counter-clockwise
 /// from +x about +z, elevation up from the x-y plane), ranges in metres.
 struct SensorModel {
   std::string name = "unknown";
@@ -30,7 +30,7 @@ struct SensorModel {
   /// The basis of an estimate: "64 beams, 0.173 deg by 0.427 deg, view of 360 deg by 27 deg, from
   /// 5 scans with 601,234 directions". Empty for a sensor of known values.
   std::string basis = "";
-  int beams = 0;  ///< As an estimate found them; 0 where there are none or they are unknown.
+  int beams = 0;  ///< By an estimate; 0 if there are none or they are unknown.
 
   [[nodiscard]] bool full_circle() const { return azimuth_max - azimuth_min > 6.2; }
   [[nodiscard]] bool has_beams() const { return beams > 0; }
@@ -46,11 +46,11 @@ std::vector<std::string> sensor_model_names();
 /// @throws ConfigurationError for an unknown name; the message lists the known ones.
 SensorModel sensor_model_named(const std::string& name);
 
-/// Field of view, steps and ranges as seen in `scans` (at least one with points), for any order of
+/// Field of view, steps and ranges observed in `scans` (at least one with points), for any order of
 /// points. The field of view lies between the outermost directions on both sides, without 0.01 % of
 /// the points on either side. It may include +-pi. `find_direction_pattern` finds the steps; they
 /// stay 0 (unknown) if there are too few directions. Steps and elevations that are nearly those of
-/// a known sensor become its own, so that naming that sensor changes nothing.
+/// a known sensor are replaced by its values, so that naming that sensor changes nothing.
 /// @throws DataError if there is no point.
 SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
 

@@ -23,7 +23,7 @@ class VoxelNumbers {
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Bytes of memory of the table.
   [[nodiscard]] std::size_t bytes() const { return table_.capacity() * sizeof(Number); }
-  /// Forgets all voxels and keeps the room.
+  /// Removes all voxels and keeps the memory.
   void clear() {
     if (size_ > 0) std::fill(table_.begin(), table_.end(), kNone);
     size_ = 0;
@@ -35,8 +35,8 @@ class VoxelNumbers {
     return table_.empty() ? kNone : table_[place_of(key, key_of)];
   }
 
-  /// The number of a voxel. One that has none gets the next one, which is `size()` till then; the
-  /// caller puts its key where `key_of` finds it.
+  /// The number of a voxel. A new voxel gets the next number, `size()` before the call; the caller
+  /// stores its key for `key_of`.
   template <class KeyOf>
   Number add(VoxelKey key, KeyOf&& key_of) {
     if (5 * (std::size_t{size_} + 1) > 4 * table_.size()) {
@@ -83,7 +83,7 @@ class VoxelNumbers {
   }
 
   Number size_ = 0;
-  std::vector<Number> table_;  ///< `kNone` where there is no voxel.
+  std::vector<Number> table_;  ///< `kNone` if there is no voxel.
 };
 
 }  // namespace raymoval

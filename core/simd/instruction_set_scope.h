@@ -5,10 +5,10 @@
 
 namespace raymoval {
 
-/// While it exists, kernels that are looked up are those of `set`, on every thread: tests compare
-/// instruction sets with it, and benchmarks measure them. Methods never name a set. An inner scope
-/// takes precedence over an outer one.
-/// @note what looked its kernels up before, such as a `FirstHitCaster`, keeps them
+/// While it exists, kernels of `set` are used on every thread: tests compare instruction sets with
+/// it, and benchmarks measure them. Methods never use it. An inner scope takes precedence over an
+/// outer scope.
+/// @note an object that selected its kernels before, such as a `FirstHitCaster`, keeps them
 class InstructionSetScope {
  public:
   explicit InstructionSetScope(InstructionSet set);

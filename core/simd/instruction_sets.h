@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For the sources of kernels, after HWY_EXPORT: how the rest of a program calls functions that are
-// compiled once for each instruction set.
+// For the sources of kernels, after HWY_EXPORT: calls functions that are compiled once for each
+// instruction set.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ std::int64_t highway_targets();
 
 }  // namespace raymoval
 
-/// The version of a kernel, made known by HWY_EXPORT, for the best set that this processor has, or
-/// for the set of an `InstructionSetScope`.
+/// The version of a kernel, declared by HWY_EXPORT, for the best set of this processor, or for the
+/// set of an `InstructionSetScope`.
 #define RAYMOVAL_BEST_KERNEL(KERNEL)                      \
   ([] {                                                   \
     hwy::ChosenTarget chosen;                             \

@@ -14,7 +14,7 @@
 
 namespace raymoval {
 
-/// A message with a scan, and what is known of it without its points.
+/// A message with a scan, without its points.
 struct BagScan {
   std::size_t message = 0;  ///< Its number in the topic.
   double time_s = 0.0;      ///< Since the topic's first message.
@@ -23,7 +23,7 @@ struct BagScan {
 };
 
 /// Scans that are messages of a bag, with all their fields. Points that are no returns are left out
-/// (see `read_returns`). Only the scans that are asked for are read.
+/// (see `read_returns`). A scan is read when it is requested.
 class BagScanSource : public ScanSource, public RecordSource, public TalliedSource {
  public:
   BagScanSource(std::shared_ptr<const Bag> bag, std::size_t topic, std::vector<BagScan> scans,

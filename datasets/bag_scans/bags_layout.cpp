@@ -37,14 +37,14 @@ void take(std::vector<Value>& all, std::vector<Value> more) {
   for (Value& value : more) all.push_back(std::move(value));
 }
 
-/// What the messages of a topic with scans say before their points.
+/// The headers of the messages of a topic with scans.
 struct ScanHeads {
-  std::vector<std::size_t> messages;  ///< Numbers of those that can be used, in order.
-  std::vector<Nanoseconds> stamps;    ///< Of each of these.
-  /// The layout of the points of each of these; equal ones are one.
+  std::vector<std::size_t> messages;  ///< Numbers of the usable messages, in order.
+  std::vector<Nanoseconds> stamps;    ///< Of each usable message.
+  /// The layout of the points of each usable message; equal layouts are shared.
   std::vector<std::shared_ptr<const RecordLayout>> layouts;
-  Nanoseconds first_stamp = 0;      ///< Of the topic's first message that can be used.
-  std::string frame;                ///< That all points are in.
+  Nanoseconds first_stamp = 0;      ///< Of the topic's first usable message.
+  std::string frame;                ///< Frame of all points.
   FrameRange range;                 ///< As used, with both ends.
   std::vector<std::string> losses;  ///< Whole sentences on messages that are left out.
 };
@@ -69,7 +69,7 @@ class HeadReader {
  public:
   HeadReader(const Bag& bag, std::size_t topic) : bag_(bag), topic_(topic) {}
 
-  /// Nothing if the message is to be left out, which is counted.
+  /// Empty if the message is left out; `left_out` counts it.
   std::optional<PointsHead> read(std::size_t message, LeftOut& left_out) const {
     try {
       PointsHead head = head_of(message);
@@ -110,8 +110,8 @@ ChosenFrames choose_messages(const Bag& bag, std::size_t topic, const FrameRange
   return choose_frames(all, range, bag_name(bag) + ": " + bag.topics()[topic].name);
 }
 
-/// Reads the heads of the messages that `range` chooses. Messages without a point, or that cannot
-/// be read, are left out. Those without a stamp have the time at which they were recorded.
+/// Reads the headers of the messages that `range` chooses. Messages without a point and unreadable
+/// messages are left out. A message without a stamp gets the time at which it was recorded.
 /// @throws DataError if the range reaches outside the topic, if half of the messages or more cannot
 ///   be used, or if their frames differ; Cancelled; UnreadableError if the disk fails
 ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& range,
@@ -153,7 +153,7 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
   return heads;
 }
 
-/// A folder may have a sequence.json; for a file the options say all.
+/// A folder may have a sequence.json; a file has the options only.
 SequenceSettings settings_of(const fs::path& path, const SequenceOptions& options) {
   if (is_folder(path)) return read_settings(path, options, {});
   SequenceSettings defaults;
@@ -242,7 +242,7 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   return found;
 }
 
-/// Takes the poses of messages whose points cannot be read away.
+/// Removes the poses of messages whose points cannot be read.
 void drop_bad_messages(const Bag& bag, std::size_t topic, const ScanHeads& heads,
                        const std::atomic<bool>* cancel, ScanPoses& poses) {
   const auto name = [&](std::size_t i) { return "message " + std::to_string(heads.messages[i]); };
@@ -270,7 +270,7 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   const ScanHeads heads = read_scan_heads(*bag, topic, settings.frames, context.cancel);
 
   Sequence sequence = make_sequence(settings, bags_layout(), heads.range);
-  // Nothing that is written may take the place of the recording, or of a file of it.
+  // No output file may overwrite the recording or a file of it.
   sequence.input_files.push_back(path);
   if (is_folder(path)) take(sequence.input_files, entries_of(path));
   const PoseSettings pose_settings =

@@ -117,7 +117,7 @@ std::optional<std::vector<MotionStep>> FrameTree::links(const std::string& from,
                                                         const std::string& to) const {
   std::vector<std::string> down = chain(to), up = chain(from);
   if (down.back() != up.back()) return std::nullopt;
-  // What is above both is left out.
+  // Ancestors of both frames are left out.
   while (down.size() > 1 && up.size() > 1 && down[down.size() - 2] == up[up.size() - 2]) {
     down.pop_back();
     up.pop_back();

@@ -15,14 +15,13 @@
 
 namespace raymoval {
 
-/// A trajectory of poses in any order. Of several with one stamp the last is taken, as receivers of
-/// transforms do.
+/// Sorts poses by time. Of several poses with one stamp the last is kept, as in tf.
 Trajectory ordered_trajectory(std::vector<StampedPose> poses);
 
-/// Adds up messages that could not be used, and says so in one sentence.
+/// Counts messages that could not be used, and summarises them in one sentence.
 class SkippedMessages {
  public:
-  /// @param reason why it could not be used, with its place
+  /// @param reason why the message could not be used, with its place
   void add(const std::string& reason);
   /// "3 messages of /tf could not be read, the first: ..." Empty if there is none.
   [[nodiscard]] std::string sentence() const;
@@ -38,10 +37,10 @@ void for_each_pose_message(
     const Bag& bag, std::size_t topic, SkippedMessages& skipped,
     const std::function<void(std::size_t message, std::vector<PoseMessage>&&)>& call);
 
-/// The frames of a recording as tf and tf_static tell of them: each has a parent, and a pose in it
-/// that is fixed or changes over time. What tf_static says holds at all times, also before it was
-/// said; what tf says holds where its messages are, even if they all say the same. Only who is
-/// whose parent is in memory.
+/// The frames of a recording from tf and tf_static. Each frame has a parent and a pose in it, which
+/// is fixed or changes over time. A transform of tf_static holds at all times, also before its
+/// message. A transform of tf holds over the time span of its messages, even if all are equal. Only
+/// the parents are kept in memory.
 class FrameTree {
  public:
   /// Reads all tf topics. @throws UnreadableError
@@ -49,15 +48,15 @@ class FrameTree {
 
   [[nodiscard]] bool empty() const { return edges_.empty(); }
   [[nodiscard]] bool knows(const std::string& frame) const;
-  /// `frame`, its parent, the parent's and so on up to the root.
-  /// @throws DataError if the frames go in a circle, or one of them has two parents
+  /// `frame`, its parent, the parent's parent and so on up to the root.
+  /// @throws DataError if the frames form a cycle, or a frame has two parents
   [[nodiscard]] std::vector<std::string> chain(const std::string& frame) const;
   /// Whether the pose of `frame` in its parent may change: it is not from tf_static.
   [[nodiscard]] bool is_dynamic(const std::string& frame) const;
-  /// The steps from frame `from` to frame `to`: their product is T_from_to. Reads the transforms
-  /// that it takes. Nothing if no chain of frames connects them.
-  /// @throws DataError as `chain`, and if a fixed transform, or all of one over time, are no rigid
-  /// motion
+  /// The steps from frame `from` to frame `to`: their product is T_from_to. Reads the transforms on
+  /// the way. Empty if no chain of frames connects them.
+  /// @throws DataError as `chain`, and if a fixed transform, or every message of a changing one, is
+  ///   no rigid motion
   [[nodiscard]] std::optional<std::vector<MotionStep>> links(const std::string& from,
                                                              const std::string& to) const;
   /// Sentences on messages that could not be used.
@@ -65,8 +64,8 @@ class FrameTree {
 
  private:
   struct Edge {
-    std::string parent, other_parent;  ///< The second is empty, unless there are two.
-    bool dynamic = false;              ///< Told by tf.
+    std::string parent, other_parent;  ///< The second is empty unless the frame has two parents.
+    bool dynamic = false;              ///< From tf.
     PoseMessage last;
   };
   void add(const PoseMessage& pose, bool dynamic);

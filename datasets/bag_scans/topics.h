@@ -19,17 +19,17 @@ std::string topics_sentence(const Bag& bag);
 /// "drive.bag: /points, message 12".
 std::string message_place(const Bag& bag, std::size_t topic, std::size_t message);
 
-/// What a topic is wanted for.
+/// A description of the topic to choose.
 struct TopicWish {
-  std::string option;  ///< With which a user names one: "--topic".
+  std::string option;  ///< The flag that names a topic: "--topic".
   std::string kind;    ///< "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)".
   std::function<bool(const BagTopic&)> fits;
 };
 
-/// The topic that a user named, or the only one that fits and has messages. Nothing if none was
-/// named and none fits. @throws UsageError naming the topics that there are, if the one named is
-/// not
-///   there or does not fit, or if several fit
+/// The topic that the user named, or the only topic that fits and has messages. Empty if no topic
+/// was named and none fits.
+/// @throws UsageError naming the topics of the bag, if the named topic is missing or does not fit,
+///   or if several fit
 std::optional<std::size_t> choose_topic(const Bag& bag, const std::optional<std::string>& named,
                                         const TopicWish& wish);
 

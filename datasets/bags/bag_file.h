@@ -17,11 +17,11 @@ class BagFile {
   /// @throws DataError if `path` is no file, UnreadableError if it cannot be opened
   explicit BagFile(std::filesystem::path path);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Bytes of the file when it was opened. What is added later is not seen.
+  /// Bytes of the file when it was opened. Bytes appended later are ignored.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Just these bytes. @throws DataError naming the byte if the file ends before, without asking
-  ///   for memory; UnreadableError if the disk fails
+  /// Exactly these bytes. @throws DataError naming the byte if the file ends before, without
+  ///   allocating memory; UnreadableError if the disk fails
   [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t size) const;
   /// As many of these bytes as there are; none behind the end. @throws UnreadableError
   [[nodiscard]] std::string read_up_to(std::uint64_t offset, std::uint64_t size) const;
@@ -34,7 +34,7 @@ class BagFile {
   std::uint64_t size_ = 0;
 };
 
-/// CRC-32 as zlib has it, of `bytes` behind those that gave `before`.
+/// CRC-32 of zlib. `before` is the CRC of the bytes before `bytes`.
 std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace raymoval

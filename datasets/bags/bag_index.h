@@ -16,8 +16,8 @@
 
 namespace raymoval {
 
-/// Calls `read`. @return what DataError says that it throws; empty if it throws none
-/// @throws UnreadableError, which is no damage; whatever else `read` throws
+/// Calls `read`. @return the message of the DataError that `read` throws; empty if it throws none
+/// @throws UnreadableError, which is no damage, and all other errors of `read`
 template <class Read>
 std::string damage_in(Read&& read) {
   try {
@@ -30,15 +30,14 @@ std::string damage_in(Read&& read) {
   return {};
 }
 
-/// Sentences on what of a recording could not be read. The first few are kept and the rest are
-/// counted, so that a file with damage everywhere fills no memory. All calls are thread-safe.
+/// Sentences on unreadable parts of a recording. The first few are kept and the rest are counted,
+/// so that a file with damage everywhere fills no memory. All calls are thread-safe.
 class DamageNotes {
  public:
   /// How many sentences are kept.
   static constexpr std::size_t kMost = 8;
 
-  /// @param sentence what is wrong, with the file and the byte. One that is there already is left
-  ///   out.
+  /// @param sentence the problem, with the file and the byte. Duplicates are left out.
   void add(std::string sentence);
   /// The sentences in the order in which they came, and one with the number of those left out.
   [[nodiscard]] std::vector<std::string> sentences() const;
@@ -50,25 +49,24 @@ class DamageNotes {
   std::size_t more_ = 0;
 };
 
-/// The index of a recording: when each message of each topic was recorded, and where it stands.
-/// It takes 16 bytes a message.
+/// The index of a recording: the time and the place of each message of each topic. It takes 16
+/// bytes per message.
 class MessageTable {
  public:
   struct Message {
     Nanoseconds recorded = 0;
-    std::uint64_t place = 0;  ///< What it means is up to the format; it grows along the file.
+    std::uint64_t place = 0;  ///< Its meaning depends on the format; it increases along the file.
     auto operator<=>(const Message&) const = default;
   };
 
-  /// The number of the topic with this name, type and encoding, which is a new one if there is
-  /// none. @param key what else tells topics apart, such as the checksum of a type
+  /// The number of the topic with this name, type and encoding; adds the topic if it is new.
+  /// @param key distinguishes further topics, such as the checksum of a type
   std::size_t topic(const std::string& name, const std::string& type, MessageEncoding encoding,
                     const std::string& key = {});
   void add(std::size_t topic, const Message& message);
-  /// Messages added so far.
+  /// Number of messages added.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Puts the messages of each topic in the order of their times, and where they are equal of their
-  /// places.
+  /// Sorts the messages of each topic by time, then by place.
   void finish();
 
   [[nodiscard]] const std::vector<BagTopic>& topics() const { return topics_; }
@@ -83,7 +81,7 @@ class MessageTable {
   std::uint64_t size_ = 0;
 };
 
-/// "sensor_msgs/PointCloud2" of "sensor_msgs/msg/PointCloud2"; other names stay as they are.
+/// "sensor_msgs/PointCloud2" of "sensor_msgs/msg/PointCloud2"; other names are unchanged.
 std::string ros1_type_name(const std::string& type);
 
 }  // namespace raymoval

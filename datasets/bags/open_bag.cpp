@@ -26,10 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is left free for others.
+/// Bytes of the disk that stay free for other programs.
 constexpr std::uint64_t kSpare = std::uint64_t{64} << 20;
 
-/// How much may be written to `folder`.
+/// Number of bytes that may be written to `folder`.
 std::uint64_t room_in(const fs::path& folder) {
   struct statvfs status {};
   if (::statvfs(folder.c_str(), &status) != 0) return 0;
@@ -37,14 +37,14 @@ std::uint64_t room_in(const fs::path& folder) {
   return free - std::min(free, kSpare);
 }
 
-/// A recording in a file that Zstandard packed as a whole. It is unpacked to a private folder when
-/// it is opened, and read there.
+/// A recording in a file that Zstandard compressed as a whole. Opening it decompresses it to a
+/// private folder.
 class PackedBag : public Bag {
  public:
   using Open = std::unique_ptr<Bag> (*)(const fs::path&);
-  /// @throws DataError if the disk has no room for it, or if it unpacks to more than 1,000 times
-  ///   its bytes and 1 MiB; UnreadableError if the disk fails; what `open` throws of the file
-  ///   inside
+  /// @throws DataError if the disk has no room for it, or if it decompresses to more than 1,000
+  ///   times its bytes and 1 MiB; UnreadableError if the disk fails; the errors of `open` for the
+  ///   file inside
   PackedBag(const fs::path& path, Open open) : path_(path) {
     const BagFile packed(path);
     const fs::path copy = folder_.path() / without_zstd_ending(path.filename());
@@ -80,15 +80,15 @@ class PackedBag : public Bag {
  private:
   fs::path path_;
   ScratchFolder folder_{kRecordingFolder};
-  std::string problem_;  ///< What is wrong with the packed file, such as a cut end.
+  std::string problem_;  ///< Problem of the compressed file, such as a truncated end.
   std::unique_ptr<Bag> bag_;
 };
 
-/// What a file is, by its first bytes.
+/// The format of a file, by its first bytes.
 enum class BagContainer { kRos1, kMcap, kDb3, kZstd };
 
-/// A .bag.active, which was not closed, begins as others do.
-/// @throws DataError if it begins as none of them; UsageError for a form that is known and not read
+/// A .bag.active, which was not closed, begins like other bags.
+/// @throws DataError for an unknown beginning; UsageError for a known format that is not supported
 BagContainer container_of(const fs::path& file) {
   const std::string head = BagFile(file).read_up_to(0, 16);
   if (head.starts_with(kRos1Magic)) return BagContainer::kRos1;
@@ -105,7 +105,7 @@ BagContainer container_of(const fs::path& file) {
       "these compressed by zstd); it is damaged or something else. Copy it again.");
 }
 
-/// Whether a name ends as those of recordings do.
+/// Whether a name has the ending of a recording.
 bool has_bag_ending(const fs::path& path) {
   const fs::path ending = without_zstd_ending(path.filename()).extension();
   return ending == ".bag" || ending == ".mcap" || ending == ".db3" ||

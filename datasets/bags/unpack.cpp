@@ -28,7 +28,7 @@ std::string too_little(std::uint64_t got, std::uint64_t stated) {
          " bytes that it should have";
 }
 
-/// What a bzip2 stream is at.
+/// The state of a bzip2 stream.
 class Bz2Stream {
  public:
   Bz2Stream() { start(); }
@@ -49,8 +49,8 @@ class Bz2Stream {
   bz_stream stream_{};
 };
 
-/// Room for what is unpacked: all that is stated and one byte, which tells what has more. It grows
-/// with what comes, so that a head that lies asks for no memory.
+/// A buffer of the stated size and one byte, which detects further data. It grows with the data, so
+/// that a wrong size in a header allocates no memory.
 class Room {
  public:
   explicit Room(std::uint64_t stated) : most_(static_cast<std::size_t>(stated) + 1) {}
@@ -154,7 +154,7 @@ Unpacked unpack_lz4(std::string_view packed, std::uint64_t stated, const std::st
 
 namespace {
 
-/// Unpacks what it is given, piece by piece.
+/// Decompresses piece by piece.
 class Unpacker {
  public:
   using Take = std::function<void(std::string_view)>;
@@ -163,8 +163,8 @@ class Unpacker {
     if (!stream_) throw std::bad_alloc();
   }
 
-  /// Unpacks `packed` up to `most` bytes in all, and no further.
-  /// @return what is wrong with it; empty if nothing is so far
+  /// Decompresses `packed` up to `most` bytes in all.
+  /// @return the problem; empty if there is none yet
   std::string add(std::string_view packed, std::uint64_t most, const Take& take) {
     ZSTD_inBuffer in{packed.data(), packed.size(), 0};
     for (bool full = false; (in.pos < in.size || full) && made_ <= most;) {
@@ -191,7 +191,7 @@ class Unpacker {
   std::unique_ptr<ZSTD_DStream, Free> stream_;
   std::string piece_;
   std::uint64_t made_ = 0;
-  bool ended_ = false;  ///< Whether what came so far ends with the end of a frame.
+  bool ended_ = false;  ///< Whether the input ends with the end of a frame.
 };
 
 }  // namespace
@@ -255,7 +255,7 @@ std::string unpack_zstd_file(const BagFile& file, std::uint64_t most,
 
 namespace {
 
-/// Chunks that are being unpacked count as nothing yet, so their number is limited, too.
+/// Chunks that are still being decompressed count as 0 bytes, so the number is limited, too.
 constexpr std::size_t kMostChunks = 64;
 
 }  // namespace

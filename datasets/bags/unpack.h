@@ -15,74 +15,73 @@
 
 namespace raymoval {
 
-/// What `packed` bytes may unpack to at most: 1 GiB, and 1,000 times the packed bytes and 1 MiB.
+/// Limit of the size to which `packed` bytes decompress: 1 GiB, and 1,000 times `packed` plus
+/// 1 MiB.
 std::uint64_t most_unpacked_size(std::uint64_t packed);
 
-/// Refuses a size that packed bytes are said to have unpacked, before memory is asked for, if it is
-/// more than `most_unpacked_size`. It is also for other compressions.
+/// Refuses a stated decompressed size beyond `most_unpacked_size`, before memory is allocated. It
+/// is also for other compressions.
 /// @param where begins the message, such as "drive.bag: byte 4,117: chunk"
 /// @throws DataError
 void check_unpacked_size(std::uint64_t packed, std::uint64_t unpacked, const std::string& where);
 
-/// What was unpacked, and why it ends before its end.
+/// Decompressed bytes, and the problem if they are incomplete.
 struct Unpacked {
   std::string bytes;
-  std::string problem;  ///< "the lz4 frame ends early", for messages; empty if all of it is there.
+  std::string problem;  ///< "the lz4 frame ends early", for messages; empty if complete.
 };
 
-/// Unpacks bzip2 data (one stream or several).
-/// @param stated bytes that it has unpacked, by what stands beside it; never more than these are
-///   made
-/// @throws DataError as `check_unpacked_size`, and nothing else: damage is told in the answer, with
-///   what stands before it
+/// Decompresses bzip2 data (one stream or several).
+/// @param stated decompressed size as stated by the file, bytes; the result is never larger
+/// @throws DataError as `check_unpacked_size`. Damage is no error: the result has the bytes before
+///   it, and the problem
 Unpacked unpack_bz2(std::string_view packed, std::uint64_t stated, const std::string& where);
 
-/// Unpacks lz4 frames (one or several), which is also what ROS 1 calls lz4. As `unpack_bz2`.
+/// Decompresses lz4 frames (one or several), as also used by ROS 1. As `unpack_bz2`.
 Unpacked unpack_lz4(std::string_view packed, std::uint64_t stated, const std::string& where);
 
-/// Whether `bytes` begin as Zstandard data does.
+/// Whether `bytes` begin like Zstandard data.
 bool is_zstd(std::string_view bytes);
 
-/// Unpacks Zstandard frames (one or several). As `unpack_bz2`.
+/// Decompresses Zstandard frames (one or several). As `unpack_bz2`.
 Unpacked unpack_zstd(std::string_view packed, std::uint64_t stated, const std::string& where);
 
-/// The same of data beside which nothing says how much it unpacks to: what its frame says, and if
-/// that does not say it either, up to the limit of `check_unpacked_size`.
+/// Decompresses Zstandard data without a stated size. The size is taken from its frame; if the
+/// frame has none, the limit of `check_unpacked_size` holds.
 /// @throws DataError if it is damaged
 std::string unpack_zstd_message(std::string_view packed, const std::string& where);
 
-/// A message as it was published, of one that rosbag2 may have packed alone. What is CDR never
-/// begins as Zstandard does.
+/// Decompresses `message` if rosbag2 compressed it by itself. CDR never begins like Zstandard.
 /// @throws DataError as `unpack_zstd_message`
 std::string unpacked_if_packed(std::string message, bool is_cdr, const std::string& where);
 
-/// Unpacks a file piece by piece.
-/// @param most bytes that it may unpack to
-/// @return what is wrong with it, such as a cut end; empty if all of it was unpacked
-/// @throws DataError if it unpacks to more than `most`, or more than 1,000 times its bytes and
-///   1 MiB; UnreadableError if the disk fails; whatever `take` throws
+/// Decompresses a file piece by piece.
+/// @param most limit of the decompressed size, bytes
+/// @return the problem, such as a truncated end; empty if the file is complete
+/// @throws DataError if it decompresses to more than `most`, or more than 1,000 times its bytes and
+///   1 MiB; UnreadableError if the disk fails; the errors of `take`
 std::string unpack_zstd_file(const BagFile& file, std::uint64_t most,
                              const std::function<void(std::string_view)>& take);
 
-/// Keeps the chunks of a recording that were unpacked last, so that the messages of a chunk do not
-/// each unpack it. All calls are thread-safe; a chunk that several threads ask for is unpacked by
-/// the first of them, and the others wait.
+/// A cache of the chunks of a recording that were decompressed last, so that a chunk is not
+/// decompressed once per message. All calls are thread-safe; if several threads request a chunk,
+/// the first decompresses it and the others wait.
 class ChunkStore {
  public:
   using Chunk = std::shared_ptr<const std::string>;
   using Unpack = std::function<std::string()>;
 
-  /// @param most_bytes what is kept at most, except that the chunk asked for last is always kept
+  /// @param most_bytes limit of the cache; the chunk requested last is always kept
   explicit ChunkStore(std::size_t most_bytes = std::size_t{16} << 20U) : most_bytes_(most_bytes) {}
 
-  /// The chunk `number`, which `unpack` makes unless it is kept. What `unpack` throws goes through,
-  /// and the next call tries again.
+  /// The chunk `number`; calls `unpack` if the cache does not have it. After an error of `unpack`,
+  /// which is passed on, the next call tries again.
   Chunk get(std::uint64_t number, const Unpack& unpack);
 
  private:
   struct Slot {
     std::mutex unpacking;
-    Chunk chunk;  ///< Null until it is unpacked.
+    Chunk chunk;  ///< Null until it is decompressed.
   };
   struct Kept {
     std::uint64_t number;
@@ -95,10 +94,10 @@ class ChunkStore {
 
   std::size_t most_bytes_;
   std::mutex mutex_;
-  std::list<Kept> kept_;  ///< The one asked for last comes first.
+  std::list<Kept> kept_;  ///< The chunk requested last comes first.
 };
 
-/// "drive_0.db3" of "drive_0.db3.zstd" and of "drive_0.db3.zst"; other names as they are.
+/// "drive_0.db3" of "drive_0.db3.zstd" and of "drive_0.db3.zst"; other names are unchanged.
 std::filesystem::path without_zstd_ending(const std::filesystem::path& name);
 
 }  // namespace raymoval

@@ -20,7 +20,7 @@
 namespace raymoval {
 namespace {
 
-/// " Rows of 20 bytes (5 float32 numbers) or ... would fit", for sizes that the field uses.
+/// " Rows of 20 bytes (5 float32 numbers) or ... would fit", for usual sizes.
 std::string fitting_sizes(std::uintmax_t bytes) {
   std::vector<std::string> sizes;
   for (std::uintmax_t floats = 3; floats <= 8 && bytes > 0; ++floats) {
@@ -32,8 +32,8 @@ std::string fitting_sizes(std::uintmax_t bytes) {
          " bytes: if its points are such, name their fields with --point-layout.";
 }
 
-/// The largest difference between the shares of both up to any value: 0 alike, 1 apart.
-/// @param a, b in order
+/// The Kolmogorov-Smirnov distance: 0 for equal distributions, 1 for disjoint ones.
+/// @param a, b sorted
 double distance(const std::vector<float>& a, const std::vector<float>& b);
 double column_distance(const std::vector<float>& numbers, std::size_t width, std::size_t step);
 
@@ -51,8 +51,8 @@ double odd_share(const std::string& bytes) {
   return static_cast<double>(odd) / static_cast<double>(count);
 }
 
-/// The point layout of a file whose numbers are odd as float32 and usual as float64; else empty.
-/// Half of the words of float64 numbers have any exponent as float32.
+/// The point layout of a file whose numbers are implausible as float32 and plausible as float64;
+/// else empty. Read as float32, half of the words of float64 numbers have a random exponent.
 std::string double_layout(const std::filesystem::path& path) {
   constexpr std::size_t kFewest = 30, kMost = 2520;  // A multiple of all widths.
   const std::string bytes = read_piece(path, 0, kMost * sizeof(double));
@@ -139,12 +139,13 @@ std::vector<std::string> lost_in_bin(const RecordLayout& layout) {
 
 constexpr std::size_t kUsualWidth = 4;
 constexpr std::array<std::size_t, 4> kOtherWidths = {3, 5, 6, 7};
-/// Numbers in a row of the file, which begin with a point under any of these widths.
+/// Successive numbers of the file that are sampled together. A block begins with a point under any
+/// of these widths.
 constexpr std::size_t kBlock = 1260;
 constexpr std::size_t kFewestBlocks = 2, kMostBlocks = 8, kMostScans = 5;
 /// Distance up to which columns are alike, and from which on they differ. Simulated scans of all
-/// sensors have at least 0.5 under their own width (0.14 where most points are no returns, at
-/// (0, 0, 0)) and at most 0.07 under another one.
+/// sensors have at least 0.5 under the right width (0.14 if most points are missing returns at
+/// (0, 0, 0)) and at most 0.07 under a wrong one.
 constexpr double kAlike = 0.1, kDifferent = 0.3;
 
 /// Some blocks of the numbers of a file, evenly spread. Empty for a small file.
@@ -177,8 +178,8 @@ double distance(const std::vector<float>& a, const std::vector<float>& b) {
   return most;
 }
 
-/// The largest distance between columns that a mixture of two widths would make alike: those whose
-/// numbers differ by a multiple of `step`, the common divisor of the widths.
+/// The largest distance between columns that a wrong width would mix: columns whose numbers differ
+/// by a multiple of `step`, the common divisor of both widths.
 double column_distance(const std::vector<float>& numbers, std::size_t width, std::size_t step) {
   std::vector<std::vector<float>> columns(width);
   for (std::size_t i = 0; i < numbers.size(); ++i) columns[i % width].push_back(numbers[i]);
@@ -192,14 +193,14 @@ double column_distance(const std::vector<float>& numbers, std::size_t width, std
   return most;
 }
 
-/// How much the columns differ under `width`; 0 if they differ under the usual width as well.
+/// Distance of the columns under `width`; 0 if columns differ under the usual width as well.
 double told_apart(const std::vector<float>& numbers, std::size_t width) {
   const std::size_t step = std::gcd(width, kUsualWidth);
   if (column_distance(numbers, kUsualWidth, step) > kAlike) return 0.0;
   return column_distance(numbers, width, step);
 }
 
-/// Those of the other widths that the sizes of all scans fit.
+/// The other widths that fit the sizes of all scans.
 std::vector<std::size_t> fitting_widths(const std::vector<std::filesystem::path>& scans) {
   std::vector<std::size_t> widths(kOtherWidths.begin(), kOtherWidths.end());
   for (const std::filesystem::path& scan : scans) {
@@ -210,10 +211,10 @@ std::vector<std::size_t> fitting_widths(const std::vector<std::filesystem::path>
   return widths;
 }
 
-/// The one of `widths` under which the columns of each scan differ most, if they do.
+/// The width of `widths` under which the columns of each scan differ most, if they do.
 std::optional<std::size_t> seen_width(const std::vector<std::filesystem::path>& scans,
                                       const std::vector<std::size_t>& widths) {
-  constexpr double kClearly = 0.05;  // Of two widths that do as well, the smaller is the width.
+  constexpr double kClearly = 0.05;  // A larger width must be better by this much.
   std::vector<double> least(widths.size(), 1.0);
   bool any = false;
   for (const std::size_t at : evenly_spread(scans.size(), kMostScans)) {

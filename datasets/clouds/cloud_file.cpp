@@ -14,7 +14,7 @@
 namespace raymoval {
 namespace {
 
-/// Behind the ending of a file that is packed with gzip.
+/// Last ending of a file that is compressed with gzip.
 constexpr const char* kPacked = ".gz";
 
 [[noreturn]] void throw_unknown(const std::filesystem::path& path,
@@ -33,7 +33,7 @@ const std::vector<CloudFormat>& cloud_formats() {
   return formats;
 }
 
-/// Refuses what git-lfs leaves in the place of a file that was not fetched.
+/// Refuses the pointer file of git-lfs for a file that was not fetched.
 void check_no_pointer(const std::filesystem::path& path, std::string_view text) {
   if (!text.starts_with("version https://git-lfs.github.com/spec/")) return;
   throw DataError(path.string() +
@@ -41,7 +41,7 @@ void check_no_pointer(const std::filesystem::path& path, std::string_view text) 
                   "lfs pull`.");
 }
 
-/// Calls `read` with the content of a file of points, unpacked.
+/// Calls `read` with the content of a file of points, decompressed.
 template <class Read>
 auto read_unpacked(const std::filesystem::path& path, const RecordReading& reading, Read&& read) {
   const std::vector<std::byte> bytes = read_bytes(path);
@@ -121,8 +121,7 @@ bool is_packed(const std::filesystem::path& path) {
 
 namespace {
 
-/// @throws UsageError naming the known endings if that of `path` is none, or is that of a format
-///   that is known and not read
+/// @throws UsageError naming the supported endings if the ending of `path` is not among them
 const CloudFormat& format_read(const std::filesystem::path& path) {
   std::string extension = cloud_extension(path);
   if (is_packed(path)) extension.resize(extension.size() - std::string_view(kPacked).size());
@@ -132,7 +131,7 @@ const CloudFormat& format_read(const std::filesystem::path& path) {
   throw_unknown(path, cloud_extensions());
 }
 
-/// @throws UsageError naming the known endings if that of `path` is none
+/// @throws UsageError naming the supported endings if the ending of `path` is not among them
 const CloudFormat& format_written(const std::filesystem::path& path) {
   for (const CloudFormat& format : cloud_formats()) {
     if (format.encoder != nullptr && path.extension() == format.extension) return format;
@@ -206,7 +205,7 @@ void PointRecordWriter::start(const RecordLayout& layout) {
   layout_ = layout;
 }
 
-/// What stands in the head may depend on the first points.
+/// The head may depend on the first points.
 void PointRecordWriter::begin(const PointRecords& first) {
   if (std::exchange(begun_, true)) return;
   encoder_->start(first);

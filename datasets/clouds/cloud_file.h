@@ -16,31 +16,31 @@
 
 namespace raymoval {
 
-/// Endings of files that are read: ".pcd" and so on, also packed with gzip: ".pcd.gz".
+/// Endings of files that can be read: ".pcd" and so on, also compressed with gzip: ".pcd.gz".
 const std::vector<std::string>& cloud_extensions();
 
-/// Endings of files that are written piece by piece, such as maps.
+/// Endings of files that can be written, such as maps.
 const std::vector<std::string>& written_extensions();
 
-/// The one of `cloud_extensions` that the name of `path` ends in, or an empty text.
+/// The entry of `cloud_extensions` in which the name of `path` ends; empty if there is none.
 std::string cloud_extension(const std::filesystem::path& path);
 
 /// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
 std::string cloud_stem(const std::filesystem::path& path);
 
-/// For a file format that is not read: a sentence that names a program to convert it. The format is
-/// known by the extension; empty for other extensions.
+/// For a known extension that is not supported: a sentence that names a program to convert the
+/// file. Empty for other extensions.
 std::string conversion_text(const std::filesystem::path& path);
 
-/// Whether `path` names a file of points that is packed with gzip.
+/// Whether `path` names a file of points that is compressed with gzip.
 bool is_packed(const std::filesystem::path& path);
 
-/// Reads positions and strengths of the points of a file of any known format, see
+/// Reads positions and intensities of the points of a file of any known format, see
 /// `cloud_extensions`.
 /// @throws DataError naming the file, and the byte, point or line that is wrong; UsageError for
-///   another extension or a point layout that cannot be
-/// @param origin metres, taken off each point in double precision before it is rounded to float32:
-///   near it, points far from the file's own origin keep their digits
+///   another extension or an invalid point layout
+/// @param origin metres, subtracted from each point in double precision before rounding to float32:
+///   points near `origin` keep their digits, also far from the file's origin
 /// @note VIEWPOINT is never applied to the points.
 Cloud read_cloud(const std::filesystem::path& path,
                  const Eigen::Vector3d& origin = Eigen::Vector3d::Zero(),
@@ -56,15 +56,15 @@ Pose read_viewpoint(const std::filesystem::path& path);
 void check_bin_size(const std::filesystem::path& path, std::uintmax_t bytes,
                     const RecordReading& reading = {});
 
-/// Refuses .bin scans whose points are of 3, 5, 6 or 7 float32 and would be read as points of 4.
+/// Refuses .bin scans whose points have 3, 5, 6 or 7 float32 and would be read as points of 4.
 ///
-/// The right width tells its columns apart: x, z and a ring are spread differently. Under a wrong
-/// width each column has a little of all. So scans are refused only if their columns differ under
-/// the other width and are alike under 4, in each of up to five scans, and if the size of every
-/// scan fits the other width. Columns are compared by the distance of Kolmogorov and Smirnov, which
-/// does not depend on the order of points, on units, or on what a column means.
-/// @param scans files of any format; those in other ones than .bin are not looked at, nor those
-/// with fewer than 2,520 numbers
+/// Under the right width, columns have different distributions: x, z and a ring differ. Under a
+/// wrong width, each column is a mixture of all. Scans are refused only if their columns differ
+/// under the other width and are alike under 4, in each of up to five scans, and if the size of
+/// every scan fits the other width. Columns are compared by the Kolmogorov-Smirnov distance, which
+/// does not depend on the order of points, on units, or on the meaning of a column.
+/// @param scans files of any format; other formats than .bin and files with fewer than 2,520
+///   numbers are not checked
 /// @throws DataError naming a scan and the width that fits, unless `reading` names the point layout
 /// @note Points of 8 float32 look like points of 4, and are not found.
 void check_bin_width(const std::vector<std::filesystem::path>& scans, const RecordReading& reading);
@@ -74,19 +74,17 @@ void check_bin_width(const std::vector<std::filesystem::path>& scans, const Reco
 ///   unknown extension
 PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading = {});
 
-/// The layout of what `read_records` gives, where the format allows that without reading the
-/// points.
-/// @throws as `read_records`, save that points are not looked at
+/// The layout of the result of `read_records`. Where the format allows it, points are not read.
+/// @throws as `read_records`, except for errors in the points
 RecordLayout read_layout(const std::filesystem::path& path, const RecordReading& reading = {});
 
-/// What the format of `path` cannot hold of points of `layout`, in whole sentences that name the
-/// fields; none if every field goes through bit for bit. @throws UsageError for an unknown
-/// extension
+/// Sentences on fields of `layout` that the format of `path` cannot store bit for bit; none if all
+/// can be stored. @throws UsageError for an unknown extension
 std::vector<std::string> what_is_lost(const std::filesystem::path& path,
                                       const RecordLayout& layout);
 
-/// The field of `layout` that files of the format of `path` also show rounded, times
-/// `RecordWriting::intensity_scale`. Nothing if there is none. @throws UsageError for an unknown
+/// The field of `layout` that the format of `path` also stores as a rounded value, multiplied by
+/// `RecordWriting::intensity_scale`. Empty if there is none. @throws UsageError for an unknown
 /// extension
 std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
                                               const RecordLayout& layout);
@@ -95,15 +93,15 @@ std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
 /// @throws UsageError for an unknown extension; DataError as `PointRecordWriter::add`
 std::string whole_file(const std::filesystem::path& path, const PointRecords& records);
 
-/// How a cloud file holds x, y and z.
+/// The number type of x, y and z in a cloud file.
 enum class Coordinates { kFloat, kDouble };
 
 /// Refuses a format that cannot hold `coordinates`: .bin has float32 only.
 /// @throws UsageError naming the file and the remedy
 void check_coordinates(const std::filesystem::path& path, Coordinates coordinates);
 
-/// Writes points with all their fields piece by piece; only the piece at hand is in memory. The
-/// format is that of the extension. The file appears at `commit`, whole.
+/// Writes points with all their fields piece by piece; memory holds one piece. The extension gives
+/// the format. The file appears at `commit`, whole.
 class PointRecordWriter {
  public:
   /// Opens the file. @throws UsageError for an unknown extension, DataError if it cannot be written
@@ -115,11 +113,11 @@ class PointRecordWriter {
   /// @throws DataError when the disk is full, beyond 4,294,967,295 points, or for a coordinate that
   ///   the format cannot hold
   void add(const PointRecords& rows);
-  /// Ends the file and puts it on the disk, still without its name.
+  /// Completes the file on the disk, still under a temporary name.
   void finish();
-  /// Gives it its name, after `finish`.
+  /// Gives the file its name, after `finish`.
   void commit() { file_.commit(); }
-  /// The same together with others.
+  /// As `commit`, together with other files.
   void commit_with(Replacements& together) { file_.commit_with(together); }
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 

@@ -18,7 +18,7 @@
 
 namespace raymoval {
 
-/// A scan on disk: where it is and what is known without reading it.
+/// A scan on disk, without its points.
 struct FrameEntry {
   std::filesystem::path path;
   std::filesystem::path label_path;  ///< Empty if there are no labels.
@@ -27,7 +27,7 @@ struct FrameEntry {
   Pose T_world_sensor = Pose::Identity();
 };
 
-/// A sensor model by name, or estimated from up to five evenly spaced scans when first asked for.
+/// A sensor model by name, or estimated from up to five evenly spaced scans at the first `get`.
 class SensorChoice {
  public:
   using Load = std::function<Scan(std::size_t)>;
@@ -42,8 +42,8 @@ class SensorChoice {
   mutable std::optional<SensorModel> model_;
 };
 
-/// Adds up the points that are left out of each scan. A scan counts once, however often and by
-/// whichever thread it is read.
+/// Counts the points that are left out of scans. A scan counts once, even if several threads read
+/// it several times.
 class LeftOutTally {
  public:
   explicit LeftOutTally(std::size_t scans) : scans_(scans) {}
@@ -52,12 +52,12 @@ class LeftOutTally {
     scans_[scan] = {stored, left_out};
     if (stored == left_out) empty_.insert(scan);
   }
-  /// The scans that were set and have no point left, in order.
+  /// The counted scans without a point left, in order.
   [[nodiscard]] std::set<std::size_t> empty() const {
     const std::lock_guard lock(mutex_);
     return empty_;
   }
-  /// The stored and the left out points of all scans that were set.
+  /// The stored and the left out points of all counted scans.
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> total() const {
     const std::lock_guard lock(mutex_);
     std::pair<std::uint64_t, std::uint64_t> sum{0, 0};
@@ -78,18 +78,18 @@ class LeftOutTally {
 class TalliedSource {
  public:
   virtual ~TalliedSource() = default;
-  /// Missing returns of the scans read so far.
+  /// Missing returns of the scans that were read.
   [[nodiscard]] virtual const LeftOutTally& tally() const = 0;
 };
 
-/// Scans in files of their own, in any of `cloud_formats`, and what is stored of them. Points that
-/// are no returns are left out (see `read_returns`); `tally` counts them. `load` throws as that.
+/// Scans in one file each, in any of `cloud_formats`, and their records. Points that are no returns
+/// are left out (see `read_returns`); `tally` counts them. `load` throws as `read_returns`.
 class FileScanSource : public ScanSource, public RecordSource, public TalliedSource {
  public:
   struct Traits {
     PointFrame point_frame = PointFrame::kSensor;
-    bool has_reflectance = true;  ///< False where the files' intensity is no reflectance.
-    RecordReading reading = {};   ///< What the files do not say of themselves.
+    bool has_reflectance = true;  ///< False if the files' intensity is no reflectance.
+    RecordReading reading = {};   ///< Facts that the files do not state.
   };
   FileScanSource(std::vector<FrameEntry> frames, Traits traits,
                  const std::optional<std::string>& sensor)
@@ -116,10 +116,10 @@ class FileScanSource : public ScanSource, public RecordSource, public TalliedSou
   LeftOutTally tally_;
 };
 
-/// Of `stored`, a word for each stored point of `scan`, those of the points that it has.
+/// Selects from `stored`, one word for each stored point of `scan`, the words of its points.
 std::vector<std::uint32_t> of_kept_points(const Scan& scan, std::vector<std::uint32_t> stored);
 
-/// The label of all points of a scan that has no label file, where others have one.
+/// The label of all points of a scan without a label file, if other scans have one.
 inline constexpr std::uint16_t kNoLabelFile = 65535;
 
 /// SemanticKITTI label files: one uint32 a stored point, in the order of the scan file.

@@ -13,7 +13,7 @@ constexpr const char* kRangeForm =
     "expected FIRST:LAST or FIRST:LAST:STRIDE over frame numbers, ends included, any part may be "
     "empty: 2350:2670:2, 100:200, ::2.";
 
-/// Part of a range; empty text gives nothing.
+/// Part of a range; empty for an empty text.
 std::optional<long> range_part(const std::string& text, std::string_view part, const char* what,
                                long minimum) {
   if (part.empty()) return std::nullopt;

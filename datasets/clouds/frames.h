@@ -23,7 +23,7 @@ struct FrameRange {
 FrameRange parse_frame_range(const std::string& text);
 std::string frame_range_text(const FrameRange& range);
 
-/// A scan file and the number its frame has in the data set.
+/// A scan file and its frame number in the data set.
 struct NumberedFile {
   long number = 0;
   std::filesystem::path path;
@@ -57,10 +57,10 @@ struct ChosenFrames {
 std::string frame_extent_text(const std::vector<NumberedFile>& files);
 
 /// Selects `range` from `files` (in order of number, at least one). The stride counts from the
-/// first frame of the range. With an end given, every frame of the range has to exist; with none,
-/// what is on disk is the sequence, so that partial copies of a data set can be used.
+/// first frame of the range. If `range` has an end, every frame of it must exist. Else the files
+/// on disk are the sequence, so that partial copies of a data set can be used.
 /// @param where folder named in messages
-/// @throws DataError saying which frames there are
+/// @throws DataError listing the frames that exist
 ChosenFrames choose_frames(const std::vector<NumberedFile>& files, const FrameRange& range,
                            const std::string& where);
 

@@ -11,9 +11,9 @@
 #include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/format/field_names.h"
 
-// PCL's own readers are not used. They trust counts in a header (a damaged file ends the program),
-// read garbage in ASCII files as zero, and report on the console; and the library loads VTK, which
-// takes longer to start than this program. What it compresses is LZF.
+// PCL's readers are not used. They trust counts in a header (a damaged file ends the program), read
+// garbage in ASCII files as zero, and report on the console. The library also loads VTK, which
+// takes longer to start than this program. PCL compresses with LZF.
 
 namespace raymoval {
 namespace {
@@ -144,7 +144,7 @@ class PcdHeaderParser {
   Entries entries_;
 };
 
-/// Digits of the largest of the three counts in a head.
+/// Digits of the largest possible count in a head.
 constexpr std::size_t kMostDigits = 10;
 
 NameRules pcd_names() {
@@ -153,7 +153,7 @@ NameRules pcd_names() {
   return rules;
 }
 
-/// A field, or the filler between two fields.
+/// A field, or the padding between two fields.
 struct HeadField {
   std::string name, type;
   std::size_t size = 1, count = 1;
@@ -169,13 +169,13 @@ std::vector<std::size_t> by_place(const RecordLayout& layout) {
   return order;
 }
 
-/// In order of their places, with filler between them.
+/// In order of their places, with padding between them.
 std::vector<HeadField> head_fields(const RecordLayout& layout) {
   const std::vector<std::string> names = fitting_names(names_of(layout), pcd_names());
   std::vector<HeadField> fields;
   std::size_t at = 0;
   const auto fill = [&](std::size_t end) {
-    // No reader takes more than 65,536 values a field for granted, ours among them.
+    // Readers, including `read_cloud`, may refuse more than 65,536 values per field.
     for (std::size_t bytes = 0; at < end; at += bytes) {
       bytes = std::min<std::size_t>(end - at, 65536);
       fields.push_back({"_", "U", 1, bytes});
@@ -222,7 +222,7 @@ class PcdEncoder : public RecordEncoder {
     const std::string height = std::to_string(shape_.of(points).second);
     const std::string count = std::to_string(points);
     const std::size_t used = viewpoint_.size() + width.size() + height.size() + count.size();
-    // Blanks in a comment give room for the digits, so that the head always has the same length.
+    // Blanks in a comment reserve room for digits, so that the head always has the same length.
     return "# .PCD v0.7 - Point Cloud Data file format\n# Written by raymoval" +
            std::string(room_ - std::min(room_, used), ' ') + "\nVERSION 0.7\n" + fields_ +
            "WIDTH " + width + "\nHEIGHT " + height + "\nVIEWPOINT" + viewpoint_ + "\nPOINTS " +

@@ -33,7 +33,7 @@ const PlyType* find_type(std::string_view name) {
   return nullptr;
 }
 
-/// A property of an element that stands before the vertices.
+/// A property of an element before the vertices.
 struct Skipped {
   std::size_t bytes = 0;                ///< Of one value.
   const PlyType* count_type = nullptr;  ///< Of a list: the type of its count.
@@ -141,7 +141,7 @@ class PlyHeaderParser {
     before_.back().properties.push_back({static_cast<std::size_t>(type->size), count_type});
   }
 
-  /// Moves where the points begin behind the items of `element`.
+  /// Moves the beginning of the points behind the items of `element`.
   void skip(const SkippedElement& element) {
     if (header_.encoding == CloudEncoding::kAscii) return skip_lines(element.items);
     if (!element.has_list()) {
@@ -234,7 +234,7 @@ class PlyEncoder : public RecordEncoder {
   std::string head(std::uint64_t points) const override {
     constexpr std::size_t kCountDigits = 10;
     const std::string count = std::to_string(points);
-    // Blanks in a comment give room for the digits, so that the head always has the same length.
+    // Blanks in a comment reserve room for digits, so that the head always has the same length.
     return "ply\nformat binary_little_endian 1.0\ncomment Written by raymoval" +
            std::string(kCountDigits - count.size(), ' ') + "\nelement vertex " + count + "\n" +
            properties_ + "end_header\n";
@@ -264,7 +264,7 @@ class PlyEncoder : public RecordEncoder {
   }
 
   std::string properties_;
-  bool packed_ = true;  ///< Whether the rows are the file's as they are.
+  bool packed_ = true;  ///< Whether rows are copied to the file unchanged.
   std::size_t packed_bytes_ = 0;
 };
 

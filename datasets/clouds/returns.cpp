@@ -10,13 +10,14 @@
 namespace raymoval {
 namespace {
 
-/// Share of infinite coordinates above which a scan is taken for damaged (evaluation protocol, edge
-/// cases). NaN is no damage: drivers write it where nothing came back.
+/// Share of infinite coordinates above which a scan is damaged (evaluation protocol, edge cases).
+/// NaN is no damage: drivers write it for a missing return.
 constexpr double kMostInfinite = 0.01;
-/// The same at the origin of stored points in the world frame, where the sensor hardly ever stands.
+/// In the world frame, stored points nearer to the origin than this are missing returns, metres.
+/// The sensor is hardly ever so near to that origin.
 constexpr float kAtZero = 1e-3F;
 
-/// What a stored point is.
+/// The kind of a stored point.
 enum class PointKind { kReturn, kNoReturn, kInfinite };
 
 PointKind kind_of(const Eigen::Vector3f& stored, float nearest) {
@@ -38,7 +39,7 @@ void check_kinds(const ReturnCounts& counts, const std::string& where, const std
 }
 
 /// Fills points, reflectance and stored_index with the returns among the points of `cloud`.
-/// @param nearest what is stored nearer to the origin is no return, metres
+/// @param nearest a stored point nearer to the origin is no return, metres
 ReturnCounts keep_returns(Cloud&& cloud, float nearest, Scan& scan) {
   ReturnCounts counts;
   counts.stored = scan.stored_point_count = cloud.points.size();
@@ -61,11 +62,11 @@ ReturnCounts keep_returns(Cloud&& cloud, float nearest, Scan& scan) {
   return counts;
 }
 
-/// Takes the returns among `points` from the world to the sensor; others stay as they are stored.
-/// @param origin what was taken off the points when they were read
+/// Transforms the returns among `points` from the world to the sensor; other points are unchanged.
+/// @param origin the origin that was subtracted from the points when they were read
 void bring_to_sensor(const Pose& T_sensor_world, const Eigen::Vector3d& origin,
                      std::vector<Eigen::Vector3f>& points) {
-  const Eigen::Vector3f zero = (-origin).cast<float>();  // Where a stored zero is now.
+  const Eigen::Vector3f zero = (-origin).cast<float>();  // The stored origin.
   for (Eigen::Vector3f& point : points) {
     const Eigen::Vector3f stored = point - zero;
     const bool is_return = kind_of(stored, kAtZero) == PointKind::kReturn;
@@ -93,7 +94,8 @@ ReturnCounts read_returns(Scan& scan, PointFrame frame, const std::string& where
                           const std::function<Cloud(const Eigen::Vector3d&)>& read,
                           const std::string& remedy) {
   const bool in_world = frame == PointFrame::kWorld;
-  // Points of a far world are read from the sensor's position on, before they become float32.
+  // The sensor's position is subtracted before rounding to float32, which keeps digits of points
+  // far from the world's origin.
   Pose T_world_sensor = scan.T_world_sensor;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   if (in_world && T_world_sensor.translation().cwiseAbs().maxCoeff() > kFarFromOrigin) {

@@ -13,7 +13,7 @@
 namespace raymoval {
 namespace {
 
-/// Seconds that a scan takes. The longest is less than a thousand times the shortest, so that at
+/// Duration of a scan, seconds. The longest is less than a thousand times the shortest, so that at
 /// most one of s, ms, us and ns fits.
 constexpr double kShortest = 0.002, kLongest = 1.9;
 
@@ -55,7 +55,7 @@ Extent extent_of(const TimedScan& timed, const PointField& field) {
   return extent;
 }
 
-/// The unit under which the longest scan takes a time that scans take.
+/// The unit that gives the longest scan a plausible duration.
 double usual_unit(double span, const PointClock& clock, const std::string& place) {
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
     if (span * unit >= kShortest && span * unit <= kLongest) return unit;
@@ -66,7 +66,7 @@ double usual_unit(double span, const PointClock& clock, const std::string& place
                   "1.9 s). Give its unit: --point-time-unit SECONDS.");
 }
 
-/// A float32 that counts from 1970 has steps of minutes.
+/// Refuses a type with too few digits: a float32 that counts from 1970 has steps of minutes.
 void check_digits(const PointField& field, const Extent& extent, double unit,
                   const std::string& place) {
   if (field.type != 'F' || field.size != 4) return;
@@ -79,7 +79,7 @@ void check_digits(const PointField& field, const Extent& extent, double unit,
                   field.name + "' as float64, or as the time since the begin of the scan.");
 }
 
-/// Chooses what the times count from: what the middles of the scans deviate from least.
+/// Chooses the zero of the times: the zero with the smallest deviation of the middles of scans.
 PointClock::Zero zero_of(const std::vector<TimedScan>& scans, const std::vector<Extent>& extents,
                          double unit) {
   double from_scan = 0.0, from_clock = 0.0;
@@ -181,7 +181,7 @@ std::vector<double> point_times(const TimedScan& timed, const PointClock& clock)
 
 namespace {
 
-/// Where a sensor was around the time of one scan.
+/// The poses of a sensor around the time of one scan.
 class MotionAround {
  public:
   MotionAround(const SensorMotion& motion, Nanoseconds stamp, double longest_s, std::string place)
@@ -194,7 +194,7 @@ class MotionAround {
     T_sensor_world_ = pose->inverse();
   }
 
-  /// Takes points as seen `seconds` after the time of the scan to that time.
+  /// Transforms points measured `seconds` after the time of the scan to that time.
   [[nodiscard]] const Pose& since(double seconds) {
     if (known_ && seconds == last_) return moved_;
     last_ = seconds;
@@ -207,7 +207,7 @@ class MotionAround {
   [[nodiscard]] Pose pose_at(Nanoseconds time) const {
     if (const auto pose = motion_.at(time)) return *pose;
     const auto [first, last] = motion_.span();
-    // Within a gap between poses the last time that is known is that of the scan.
+    // Within a gap between poses, the last known time is the time of the scan.
     const Nanoseconds known = time < first ? first : time > last ? last : stamp_;
     const Nanoseconds beyond = time - known;
     if (std::abs(beyond) > step_ + step_ / 2) {
@@ -216,7 +216,7 @@ class MotionAround {
                       "scan. Take a trajectory that covers the scan, or leave it out (--frames).");
     }
     const Pose at_known = motion_.at(known).value();
-    // The motion over the step before, or after if there is none before.
+    // The motion over the step before, or over the step after if there is none before.
     for (const Nanoseconds step : {beyond > 0 ? -step_ : step_, beyond > 0 ? step_ : -step_}) {
       const Nanoseconds other = std::clamp(known + step, first, last);
       const auto pose = motion_.at(other);
@@ -224,12 +224,12 @@ class MotionAround {
       const double part = static_cast<double>(beyond) / static_cast<double>(other - known);
       return at_known * part_of(at_known.inverse() * *pose, part);
     }
-    return at_known;  // A single pose: the sensor stands.
+    return at_known;  // A single pose: the sensor is stationary.
   }
 
   const SensorMotion& motion_;
   Nanoseconds stamp_;
-  Nanoseconds step_;  ///< The time that a scan takes.
+  Nanoseconds step_;  ///< Duration of a scan.
   std::string place_;
   Pose T_sensor_world_ = Pose::Identity();
   bool known_ = false;

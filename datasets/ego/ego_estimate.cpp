@@ -13,20 +13,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The machine begins nearer to the sensor than the first, and ends nearer than the second.
+/// The machine begins nearer to the sensor than `kStart`, and ends nearer than `kEnd`, metres.
 constexpr double kStart = 2.5, kEnd = 8.5, kReach = 9.0;
 
-/// The plane that the sensor's vehicle stands on, n . p = offset with n up.
+/// The plane below the ego vehicle, n . p = offset with n up.
 struct GroundPlane {
   Vector3d normal = Vector3d::UnitZ();
   double offset = -1.0;
-  double ceiling = std::numeric_limits<double>::infinity();  ///< Height of the lowest one, metres.
+  double ceiling = std::numeric_limits<double>::infinity();  ///< Height, metres.
   [[nodiscard]] double height(const Vector3d& point) const { return normal.dot(point) - offset; }
 };
 
-/// Surfels of all scans that the ground may consist of, their axes up: not above the sensor (an
-/// origin of the points may lie on the ground), and tilted by less than 60 degrees, as far as a
-/// sensor in a hand may be.
+/// Candidates for the ground among the surfels of all scans, with axes up: not above the sensor (an
+/// origin of the points may lie on the ground), and tilted by less than 60 degrees, the largest
+/// tilt of a hand-held sensor.
 std::vector<Surfel> ground_candidates(
     std::size_t scans, const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
   constexpr double kFarthest = 15.0, kHighest = 0.3, kTilted = 0.5;
@@ -42,7 +42,8 @@ std::vector<Surfel> ground_candidates(
   return candidates;
 }
 
-/// Height of the ceiling above `ground`, which keeps its place as well; infinite if there is none.
+/// Height of the ceiling above `ground`, which is fixed in the sensor frame as well; infinite if
+/// there is none.
 double ceiling_above(const GroundPlane& ground, std::size_t least, std::size_t scans,
                      const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
   constexpr double kLevel = 0.98, kAboveSensor = 0.3;  // cosine of 11 degrees; metres
@@ -61,8 +62,8 @@ double ceiling_above(const GroundPlane& ground, std::size_t least, std::size_t s
   return *low;
 }
 
-/// The plane that most surfels of all scans lie on. A wall ahead of a tilted sensor may have as
-/// many in one scan, but it comes nearer while the ground stays.
+/// The plane of most surfels of all scans. A wall ahead of a tilted sensor may have as many in one
+/// scan, but its distance changes.
 GroundPlane ground_of(std::size_t scans,
                       const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
   constexpr std::size_t kTrials = 100;
@@ -91,8 +92,7 @@ GroundPlane ground_of(std::size_t scans,
   return plane;
 }
 
-/// Cells of the sensor frame between ground and ceiling that hold points in nearly every one of
-/// `scans`.
+/// Cells of the sensor frame between ground and ceiling with points in nearly all of `scans`.
 VoxelSet steady_cells(const std::vector<const Scan*>& scans, const GroundPlane& ground) {
   constexpr double kOffLevels = 0.4, kNearlyAll = 0.85;
   VoxelMap<std::size_t> seen;
@@ -117,8 +117,7 @@ VoxelSet steady_cells(const std::vector<const Scan*>& scans, const GroundPlane& 
   return steady;
 }
 
-/// Drops of rain fill cells near the sensor as well, but all over. What belongs to a machine lies
-/// on surfaces.
+/// Removes cells that rain fills. Drops fill a cell evenly; points of a machine lie on surfaces.
 void erase_filled(const std::vector<const Scan*>& scans, VoxelSet& steady) {
   constexpr double kThick = 0.035;  // metres, standard deviation; 0.07 if a cell is filled evenly
   struct Moments {
@@ -147,7 +146,8 @@ void erase_filled(const std::vector<const Scan*>& scans, VoxelSet& steady) {
   }
 }
 
-/// Of `steady`, the cells that hang together with one near the sensor; empty if they go on.
+/// The cells of `steady` that are connected to a cell near the sensor; empty if they extend beyond
+/// the machine.
 VoxelSet grown_from_sensor(const VoxelSet& steady) {
   const auto distance = [](VoxelKey key) {
     return ((voxel_index(key).cast<double>().array() + 0.5) * kEgoCell).matrix().norm();
@@ -177,7 +177,7 @@ bool EgoEstimate::contains(const Vector3d& point) const {
 }
 
 EgoRegion EgoEstimate::region() const {
-  // Cells that noise or a turn of the scan leaves empty now and then are not steady.
+  // Bridges cells that noise or a turn of the sensor leaves empty at times.
   constexpr double kRoom = 0.15;
   const auto rounded = [](double metres) { return std::round(metres * 100.0) / 100.0; };
   EgoRegion region;
@@ -194,7 +194,7 @@ EgoRegion EgoEstimate::region() const {
 std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
                                      const std::vector<std::size_t>& candidates, std::size_t most) {
   constexpr double kApart = 1.0, kMetresPerRadian = 3.0;
-  // Against the last one chosen first: nearly always it decides.
+  // The last chosen pose is compared first, because it nearly always decides.
   std::vector<std::size_t> apart;
   for (const std::size_t index : candidates) {
     const bool far = std::all_of(apart.rbegin(), apart.rend(), [&](std::size_t other) {

@@ -11,38 +11,39 @@
 
 namespace raymoval {
 
-/// Edge of the cells that an estimate looks at, metres.
+/// Edge of the cells of an estimate, metres.
 inline constexpr double kEgoCell = 0.25;
 
-/// The part of the scans that goes along with the sensor.
+/// The part of the scans that moves along with the sensor: the ego vehicle, or another machine.
 struct EgoEstimate {
-  std::size_t scans = 0;  ///< How many were compared; they are a metre or more apart.
+  std::size_t scans = 0;  ///< Number of compared scans, a metre or more apart.
   std::size_t steady =
-      0;         ///< How many cells of the sensor frame are occupied in nearly all of them.
-  VoxelSet own;  ///< Those of them that belong to the machine at the sensor.
+      0;         ///< Number of cells of the sensor frame that are occupied in nearly all scans.
+  VoxelSet own;  ///< Cells of the machine.
 
-  /// Whether the sensor moved enough to tell.
+  /// Whether the sensor moved enough for an estimate.
   [[nodiscard]] bool can_tell() const { return scans >= 5; }
-  /// Whether something goes along with it: a few cells alone may be chance.
+  /// Whether a machine was found. Fewer cells may be chance.
   [[nodiscard]] bool found() const { return can_tell() && own.size() >= 4; }
   /// Whether `point` (sensor frame) lies in a cell of the machine.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;
-  /// The box around these cells with some room for noise; of kind kNone if nothing was found.
+  /// The box around the cells of the machine with a margin for noise; of kind kNone if none was
+  /// found.
   [[nodiscard]] EgoRegion region() const;
 };
 
-/// Of `poses`, those between which the sensor went a metre or more, a turn by 20 degrees counting
-/// as one: the first, and each that is so far from all before it; at most `most`, evenly chosen.
+/// Chooses poses that are a metre or more apart from all earlier chosen poses; a turn by 20 degrees
+/// counts as a metre. The result has at most `most` poses, evenly chosen.
 /// @param candidates positions in `poses`, ascending
 std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
                                      const std::vector<std::size_t>& candidates, std::size_t most);
 
-/// Finds the points that keep their place in the sensor frame while the sensor moves. A wall or a
-/// guard rail along the way does so too, but it begins farther from the sensor or goes on; a
-/// vehicle ends. Nothing is found within 0.4 m of the ground and of a ceiling, which keep their
-/// place as well.
+/// Finds the points that are fixed in the sensor frame while the sensor moves. A wall or a guard
+/// rail along the way is fixed as well, but it begins farther from the sensor or extends farther
+/// than a vehicle. Points within 0.4 m of the ground or of a ceiling are ignored, because these are
+/// fixed as well.
 /// @param scans scans apart, see `poses_apart`
-/// @param surfels of each of `scans`, see `find_surfels`, without those of the machine itself
+/// @param surfels of each of `scans`, see `find_surfels`, without surfels of the machine
 EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
                          const std::function<const std::vector<Surfel>&(std::size_t)>& surfels);
 

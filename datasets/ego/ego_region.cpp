@@ -42,7 +42,7 @@ EgoRegion parse_box(const std::string& text) {
     region.box.max()[axis] = box_side(sides[1], kOpen, text);
     if (!(region.box.min()[axis] < region.box.max()[axis])) throw_ego_form(text);
   }
-  // With all sides open nothing would be left.
+  // A box that is open on all sides would leave no point.
   if (region.box.min().maxCoeff() == -kOpen && region.box.max().minCoeff() == kOpen) {
     throw_ego_form(text);
   }

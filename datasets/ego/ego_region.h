@@ -12,12 +12,12 @@
 
 namespace raymoval {
 
-/// The part of the sensor frame (metres) whose points belong to the machine that carries the
-/// sensor: points there go along with it, and methods take them for things that are always there.
+/// The region of the sensor frame (metres) of the machine that carries the sensor. Its points move
+/// along with the sensor, and methods would classify them as static.
 struct EgoRegion {
   enum class Kind {
     kNone,       ///< No point is left out.
-    kEstimated,  ///< To be found in the scans, see `estimate_ego`.
+    kEstimated,  ///< Estimated from the scans, see `estimate_ego`.
     kRadius,     ///< Points nearer than `radius`.
     kBox,        ///< Points within `box`, its faces included.
   };
@@ -25,33 +25,33 @@ struct EgoRegion {
   double radius = 0.0;
   Eigen::AlignedBox3d box;
 
-  /// Whether a point of the sensor frame lies in it; never for the first two kinds.
+  /// Whether the region contains a point of the sensor frame; false for kNone and kEstimated.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const {
     if (kind == Kind::kRadius) return point.squaredNorm() < radius * radius;
     return kind == Kind::kBox && box.contains(point);
   }
 };
 
-/// Reads "none", "auto" (estimated), a radius ("2.4"), or a box ("-1:2,-0.9:0.9,-1.5:0.2" along x,
-/// y and z of the sensor frame, an empty side open). @throws UsageError saying what the forms are
+/// Parses "none", "auto" (estimated), a radius ("2.4"), or a box ("-1:2,-0.9:0.9,-1.5:0.2" along x,
+/// y and z of the sensor frame, an empty side open). @throws UsageError listing these forms
 EgoRegion parse_ego_region(const std::string& text);
 
-/// What `parse_ego_region` reads.
+/// The text that `parse_ego_region` reads.
 std::string ego_region_text(const EgoRegion& region);
 
-/// Scans of another source without the points of the machine that carries the sensor. They are left
-/// out of `Scan` as missing returns are: `stored_index` tells where the others stand.
+/// Scans of another source without the points of the ego vehicle. These are left out of `Scan` like
+/// missing returns: `stored_index` has the stored positions of the other points.
 class EgoFreeSource : public ScanSource {
  public:
-  /// @param asked the region; of kind kEstimated: it is found when first needed, in up to twenty
-  ///   scans of `whole`
+  /// @param asked the region; kind kEstimated is estimated at first use from up to twenty scans of
+  ///   `whole`
   EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked);
 
   [[nodiscard]] std::size_t size() const override { return whole_->size(); }
   /// @throws DataError also if no point is left, or the region cannot be estimated
   [[nodiscard]] Scan load(std::size_t index) const override;
   [[nodiscard]] Pose pose(std::size_t index) const override { return whole_->pose(index); }
-  /// A sensor that is estimated is so from what is left of the scans.
+  /// An estimated sensor model is estimated from the remaining points.
   [[nodiscard]] const SensorModel& sensor() const override;
 
   [[nodiscard]] const ScanSource& whole() const { return *whole_; }

@@ -9,9 +9,9 @@
 
 namespace raymoval {
 
-/// Scans of another source whose points stand in the frame of a vehicle, brought to their sensor:
-/// `origin` is subtracted from the points, and T_world_sensor is moved by it. Axes stay. Points
-/// within 5 cm of the sensor are missing returns and left out.
+/// Shifts scans of another source from the frame of a vehicle to the sensor: `origin` is subtracted
+/// from the points, and T_world_sensor is moved by it. The axes are unchanged. Points within 5 cm
+/// of the sensor are missing returns and left out.
 class SensorOriginSource : public ScanSource {
  public:
   SensorOriginSource(std::shared_ptr<const ScanSource> whole, const Eigen::Vector3d& origin);

@@ -12,15 +12,15 @@
 
 namespace raymoval {
 
-/// A flat piece of surface as one scan sees it, in the sensor frame.
+/// A flat piece of surface in one scan, in the sensor frame.
 struct SurfacePatch {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();     ///< Metres.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Unit length, towards the sensor.
   double area = 0.0;                                  ///< Square metres, about.
 };
 
-/// A point in whole millimetres, with the Morton code of its cell of 256 mm. In the order of codes
-/// the points of a cell of 256 mm times a power of two stand together.
+/// A point in whole millimetres, with the Morton code of its cell of 256 mm. Sorted by code, the
+/// points of each cell of 256 mm times a power of two are contiguous.
 struct PlacedPoint {
   std::uint64_t code = 0;
   Eigen::Vector3i at;
@@ -28,7 +28,7 @@ struct PlacedPoint {
 inline constexpr int kPlacedBits = 8;
 
 /// Calls `visit` with the points of each cell of 2^bits millimetres, bits >= kPlacedBits.
-/// @param points in the order of codes
+/// @param points sorted by code
 template <class Visit>
 void for_each_cell(std::span<const PlacedPoint> points, int bits, Visit&& visit) {
   const int shift = 3 * (bits - kPlacedBits);
@@ -41,10 +41,10 @@ void for_each_cell(std::span<const PlacedPoint> points, int bits, Visit&& visit)
 
 using PatchVisit = std::function<void(const SurfacePatch&, std::span<const PlacedPoint>)>;
 
-/// Calls `visit` with each flat piece among the points of `scan` from `nearest` to `farthest`
-/// metres (131 at most) from the sensor, and with its points: cells of 4.1 m whose points lie on a
-/// plane, and where they do not, cells of half the size, down to 0.5 m. Sums are made of whole
-/// millimetres, so the answer does not depend on the order of points.
+/// Calls `visit` with each flat patch and its points, among the points of `scan` from `nearest` to
+/// `farthest` metres (131 at most) from the sensor. A patch is a cell of 4.1 m whose points lie on
+/// a plane; other cells are halved, down to 0.5 m. Sums are of whole millimetres, so the result
+/// does not depend on the order of points.
 void for_each_patch(const Scan& scan, float nearest, float farthest, const PatchVisit& visit);
 
 }  // namespace raymoval

@@ -23,7 +23,7 @@ constexpr double kSameNormal = 0.85;      // cosine between surfels that may be 
 constexpr std::size_t kFewestOfGroup = 12;
 constexpr std::size_t kGroups = 4;
 
-/// Name of a cell; far away cells may share one, which costs time and nothing else.
+/// Key of a cell. Distant cells may share a key, which costs only time.
 std::uint64_t cell_name(double x, double y, double z) {
   const auto part = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)) & 0x1FFFFFU;
@@ -59,8 +59,8 @@ Surfel::Group group_of(const Vector3d& normal) {
   return static_cast<Surfel::Group>(axis);
 }
 
-/// A line of points that lies flat is one beam on the ground, which moves with the sensor; only
-/// planes and upright lines say where things are.
+/// Accepts planes and upright lines. A horizontal line is one beam on the ground, which moves with
+/// the sensor.
 bool make_surfel(const Moments& moments, Surfel& surfel) {
   if (moments.count < kFewestPoints) return false;
   const auto count = static_cast<double>(moments.count);
@@ -84,7 +84,7 @@ Surfel moved_by(const Pose& motion, const Surfel& surfel) {
   return {motion * surfel.mean, motion.linear() * surfel.axis, surfel.group};
 }
 
-/// Removes what a surface leaves free: the plane's own directions, or along the pole.
+/// Projects out the directions that a surface does not constrain: in the plane, or along the pole.
 Matrix3d across(const Surfel& surfel) {
   const Matrix3d along = surfel.axis * surfel.axis.transpose();
   return surfel.is_line() ? Matrix3d(Matrix3d::Identity() - along) : along;
@@ -150,7 +150,7 @@ const Surfel* SurfaceMap::nearest(const Surfel& moved) const {
   if (!nameable(moved.mean)) return nullptr;
   const Surfel* best = nullptr;
   double best_square = 0.25 * kLookup * kLookup;
-  // Half a cell to each side: the eight cells around the nearest corner reach far enough.
+  // The eight cells around the nearest corner extend half a cell or more to each side.
   const Vector3d corner = (moved.mean / kLookup).array().round();
   for (int k = 0; k < 8; ++k) {
     const auto found = cells_.find(
@@ -193,7 +193,7 @@ Pose SurfaceMap::refine(const std::vector<Surfel>& surfels, const Pose& motion, 
   const auto sizes = group_sizes(surfels);
   Pose best = motion;
   for (int step = 0; step < steps; ++step) {
-    // Loose at first, so that half a metre can be made up for.
+    // A large scale at first, so that half a metre can be corrected.
     const double scale = std::max(0.1, 0.5 * std::pow(0.75, step));
     Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Identity() * 1e-9;
     Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();

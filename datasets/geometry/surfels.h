@@ -11,7 +11,7 @@
 
 namespace raymoval {
 
-/// A small piece of surface as a scan sees it: a patch of a plane, or of a thin pole.
+/// A small piece of surface in a scan: a patch of a plane, or of a thin pole.
 struct Surfel {
   enum class Group : std::uint8_t { kNormalX, kNormalY, kNormalZ, kLine };
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -21,17 +21,17 @@ struct Surfel {
   [[nodiscard]] bool is_line() const { return group == Group::kLine; }
 };
 
-/// `points` without those within 3 m of the sensor: there a vehicle sees itself, and its own points
-/// move along with the sensor.
+/// `points` farther than 3 m from the sensor. Nearer points may be of the ego vehicle, which moves
+/// along with the sensor.
 std::vector<Eigen::Vector3f> without_near(std::vector<Eigen::Vector3f> points);
 
 /// The surfels of a scan in its own frame, in a fixed order: one for each cell of 0.8 m whose
 /// points (at least six) lie on a plane or on a pole.
 std::vector<Surfel> find_surfels(const std::vector<Eigen::Vector3f>& points);
 
-/// The part of a shift that goes along directions in which at least `fewest` surfels hold a scan: a
-/// plane does along its normal, a pole across itself. The ground alone holds it upright, and
-/// nowhere else.
+/// The part of a shift along directions that at least `fewest` surfels constrain. A plane
+/// constrains its normal, a pole the directions across it. The ground alone constrains only the
+/// vertical.
 Eigen::Vector3d held_part(const Eigen::Vector3d& shift, const std::vector<Surfel>& surfels,
                           double fewest);
 
@@ -41,9 +41,9 @@ class SurfaceMap {
   explicit SurfaceMap(std::vector<Surfel> surfels);
 
   /// Agreement of `surfels`, moved by `motion`, with this map, 0 to 1. Each surfel counts
-  /// 1 - distance / `reach` to the nearest surfel alike (plane to plane along the normal, pole to
-  /// pole across it), or 0; the mean of each group is taken first, so that the ground does not
-  /// outvote the few surfaces that tell how far the sensor went.
+  /// 1 - distance / `reach` to the nearest similar surfel (plane to plane along the normal, pole to
+  /// pole across it), or 0. The mean of each group is taken first, so that the ground does not
+  /// outvote the few surfaces across the direction of travel.
   [[nodiscard]] double agreement(const std::vector<Surfel>& surfels, const Pose& motion,
                                  double reach = 0.2) const;
 

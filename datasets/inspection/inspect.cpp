@@ -26,7 +26,7 @@ namespace raymoval {
 
 namespace {
 
-/// Fills in what the check says of all its findings.
+/// Fills in the defaults of the check.
 Finding completed(Finding finding, const InspectionCheck& check,
                   const inspection::Samples& samples) {
   if (finding.check.empty()) finding.check = check.name;
@@ -73,7 +73,7 @@ InspectionReport inspect(const Sequence& sequence, int threads, const std::atomi
       report.findings.push_back(completed(std::move(finding), check, samples));
     }
   }
-  report.notes = sequence.notes;  // The checks tell its damage.
+  report.notes = sequence.notes;  // The checks report its damage.
   report.notes.insert(report.notes.end(), sequence.losses.begin(), sequence.losses.end());
   if (const auto* scans = dynamic_cast<const BagScanSource*>(&stored_source(sequence))) {
     report.notes.push_back(bag_name(scans->bag()) + ": " + topics_sentence(scans->bag()));
@@ -88,7 +88,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pose files of `folder` whose count would fit.
+/// Pose files of `folder` with a number of poses that would fit.
 std::vector<std::string> fitting_files(const fs::path& folder, std::size_t least,
                                        std::size_t most) {
   std::vector<std::string> names;
@@ -118,14 +118,14 @@ Finding count_finding(const fs::path& poses, std::size_t rows, const fs::path& f
                   : fmt::format("The count of {} fits: --poses {}.", join(others), others.front())};
 }
 
-/// Compares the count of poses with that of the scans.
+/// Compares the number of poses with the number of scans.
 std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
                                  const SequenceOptions& options) {
   const auto settings = read_settings(folder, options, {});
   if (settings.poses == kStandingSensor) return {};
   const auto path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
   const PoseFile file = read_pose_file(path, {settings.pose_format});
-  // Poses that go by time, and one pose for all scans, may be of any number.
+  // Poses with times, and one pose for all scans, need not match the number of scans.
   if (file.stamped() || file.rows.size() == 1 || file.rows.front().frame) return {};
   const std::size_t rows = file.rows.size();
   std::size_t least = 0, most = SIZE_MAX;
@@ -134,7 +134,7 @@ std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
     least = static_cast<std::size_t>(files.back().number) + 1;
   } else {
     const auto files = list_files(folder / layout.scan_folder, cloud_extensions());
-    // Poses may stand in an array or a cloud, which is no scan.
+    // Poses may be in an array or a cloud file, which is no scan.
     least = most = static_cast<std::size_t>(
         std::count_if(files.begin(), files.end(),
                       [&](const fs::path& scan) { return !is_same_file(scan, path); }));
@@ -143,7 +143,7 @@ std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
   return {count_finding(path, rows, folder, least, most)};
 }
 
-/// Looks for a scan file that lacks its pose.
+/// Finds scan files that lack their pose.
 std::vector<Finding> check_viewpoints(const fs::path& folder, const Layout& layout) {
   constexpr std::size_t kHead = 65536;
   for (const auto& path : list_files(folder / layout.scan_folder, {".pcd"})) {
@@ -171,7 +171,7 @@ std::vector<Finding> unopenable_findings(const std::string& path, const Sequence
   } catch (const UnreadableError&) {
     throw;  // Neither damaged nor absent.
   } catch (const Error&) {
-    return {};  // Whoever opens the sequence says what is wrong.
+    return {};  // Opening the sequence reports the error.
   }
 }
 

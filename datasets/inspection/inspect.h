@@ -11,24 +11,24 @@
 
 namespace raymoval {
 
-/// Looks for the usual mistakes in the data of `sequence`: about thirty scans are read, evenly
-/// spread, and the poses, sizes and times of all; to measure how well poses fit, two scans for each
-/// station along the path (see `measure_pose_fit`). Nothing is changed.
+/// Checks the data of `sequence` for common mistakes. It reads about thirty scans, evenly spread,
+/// and the poses, sizes and times of all scans. To measure the fit of poses, it reads two scans for
+/// each station along the path (see `measure_pose_fit`). The data is not changed.
 /// @param threads the largest number of threads; the report does not depend on it
 /// @throws DataError if a scan cannot be read; Cancelled
 InspectionReport inspect(const Sequence& sequence, int threads = 1,
                          const std::atomic<bool>* cancel = nullptr);
 
-/// The same for a path as `open_sequence` takes it. Some mistakes keep a sequence from being
-/// opened: those that have a name (a pose file with another count, .pcd files without VIEWPOINT)
-/// are findings. @throws for all others what `open_sequence` throws
+/// The same for a path of `open_sequence`. Some mistakes prevent opening a sequence. If a check
+/// exists for the mistake (a pose file with another count, .pcd files without VIEWPOINT), it is a
+/// finding. @throws other errors of `open_sequence`
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
                               const OpenContext& context = {});
 
-/// Those findings of `inspect_path` that keep the sequence at `path` from being opened.
+/// The findings of `inspect_path` that prevent opening the sequence at `path`.
 std::vector<Finding> unopenable_findings(const std::string& path, const SequenceOptions& options);
 
-/// All that `inspect` looks for, in the order in which it is looked for and reported.
+/// All checks of `inspect`, in the order of execution and of the report.
 using InspectionCheck = inspection::Check;
 const std::vector<InspectionCheck>& inspection_checks();
 

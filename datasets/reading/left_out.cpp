@@ -11,7 +11,7 @@
 namespace raymoval {
 namespace {
 
-/// "12.3 % of the stored points", or the count where the share is tiny.
+/// "12.3 % of the stored points", or the count if the share is tiny.
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
   const double percent = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
   if (percent >= 1.0) return fixed_text(percent, 1) + " % of the stored points";

@@ -35,7 +35,7 @@ void add_labels(ContentHasher& hasher, const std::vector<std::uint32_t>& labels)
   add_vector(hasher, labels);
 }
 
-/// Adds sensor model, range limits, label rule, and up where it is not the world's z.
+/// Adds sensor model, range limits, label rule, and up if it is not the world's z.
 void add_settings(ContentHasher& hasher, const Sequence& sequence) {
   const SensorModel& sensor = sequence.scans->sensor();
   for (const double value :

@@ -8,10 +8,9 @@
 
 namespace raymoval {
 
-/// Calls `call` with a zero of the number type that `type` (F real, I signed, U unsigned) and
-/// `size` (bytes) name, and returns what it returns. This is the one place that says which types
-/// there are.
-/// @throws InternalError for a type that no reader lets in
+/// Calls `call` with a zero of the number type of `type` (F real, I signed, U unsigned) and `size`
+/// (bytes), and returns its result. All number types are listed here.
+/// @throws InternalError for a type that no reader accepts
 template <class Call>
 decltype(auto) with_number_type(char type, int size, Call&& call) {
   if (type == 'F' && size == 4) return call(float{});

@@ -22,7 +22,7 @@ Number number_at(const std::byte* place) {
   return number;
 }
 
-/// The nearest number that `Number` has; 0 for a NaN that it cannot hold.
+/// The nearest value of type `Number`; 0 for NaN if `Number` has none.
 template <class Number>
 Number nearest(double value) {
   if constexpr (std::is_floating_point_v<Number>) {

@@ -28,25 +28,25 @@ struct PointField {
   bool operator==(const PointField&) const = default;
 };
 
-/// How the bytes of a point are laid out. Numbers are little-endian. Between fields there may be
-/// bytes that mean nothing, which are kept as they are.
+/// The layout of the bytes of a point. Numbers are little-endian. Padding between fields is kept
+/// unchanged.
 struct RecordLayout {
   std::vector<PointField> fields;
   std::size_t row_bytes = 0;
-  /// The names were not stored beside the values: columns of an array, numbers of a .bin file.
+  /// Whether the file has no field names: columns of an array, numbers of a .bin file.
   bool unnamed = false;
 
-  /// The first field with one of `names`, or null. Names are compared as they are written.
+  /// The first field with one of `names`, or null. If no name is equal, case is ignored.
   [[nodiscard]] const PointField* find(const std::vector<std::string_view>& names) const;
-  /// Appends a field behind the last byte, whose name counts from then on.
+  /// Appends a field behind the last byte and sets `unnamed` to false.
   void add(std::string name, char type, int size, int count = 1);
   bool operator==(const RecordLayout&) const = default;
 };
 
 struct LasNotes;
 
-/// The points of one scan with everything that was stored of them, bit for bit: N records of
-/// `layout.row_bytes` bytes. Points without a return are among them; row i is stored point i.
+/// The points of one scan with all stored fields, bit for bit: N records of `layout.row_bytes`
+/// bytes. Points without a return are included; row i is stored point i.
 struct PointRecords {
   RecordLayout layout;
   std::vector<std::byte> bytes;  ///< size() * layout.row_bytes.
@@ -54,7 +54,7 @@ struct PointRecords {
   std::uint64_t width = 0, height = 1;
   /// PCD: tx ty tz qw qx qy qz.
   std::optional<Eigen::Matrix<double, 7, 1>> viewpoint = std::nullopt;
-  /// LAS: what its head says of the values, for a LAS file that is made of them (see las_head.h).
+  /// LAS: facts of its head, for a LAS file that is written from these points (see las_head.h).
   std::shared_ptr<const LasNotes> las = nullptr;
 
   [[nodiscard]] std::size_t size() const {
@@ -68,7 +68,7 @@ struct PointRecords {
   }
   /// Value `at` of `field` of a point, as the nearest double.
   [[nodiscard]] double value(std::size_t point, const PointField& field, int at = 0) const;
-  /// Writes `value` in the type of `field`; a whole type takes the nearest number that it has.
+  /// Writes `value` in the type of `field`; a whole type gets the nearest number.
   void set_value(std::size_t point, const PointField& field, double value, int at = 0);
   /// The rows whose `keep` is not 0, in order, as a cloud that is not organised.
   /// @throws InternalError if there is not one value of `keep` a row
@@ -80,15 +80,14 @@ struct PositionFields {
   PointField x, y, z;
 };
 /// @param where begins the message, such as "scan.pcd"
-/// @throws DataError naming the fields that there are, if one of x, y and z with a single value is
-///   missing
+/// @throws DataError naming the existing fields, if x, y or z is missing or has several values
 PositionFields position_fields(const RecordLayout& layout, const std::string& where);
 
-/// The names that the strength of a return has in the field, the usual first.
+/// Usual names of the intensity of a return, the most common first.
 const std::vector<std::string_view>& intensity_names();
 
-/// The names that the time of a point has in the field (seconds, microseconds, nanoseconds or
-/// ticks, from the beginning of its scan or from 1970).
+/// Usual names of the time of a point (seconds, microseconds, nanoseconds or ticks, from the
+/// beginning of its scan or from 1970).
 const std::vector<std::string_view>& time_names();
 
 }  // namespace raymoval

@@ -8,20 +8,20 @@
 
 namespace raymoval {
 
-/// The frame that the points of a scan are stored in: the sensor's, or the world of the poses.
+/// The frame of the stored points of a scan: the sensor's, or the world of the poses.
 enum class PointFrame { kSensor, kWorld };
 
-/// What is stored of each scan of a sequence, with all fields. It stands beside the `ScanSource`,
-/// which has only what methods see: row `scan.stored_position(i)` here is point i there. Calls are
-/// thread-safe; nothing behind this interface holds all scans.
+/// The records of each scan of a sequence, with all fields. The `ScanSource` has only the data for
+/// methods: row `scan.stored_position(i)` here is point i there. Calls are thread-safe; no
+/// implementation holds all scans in memory.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
-  /// The records of scan `index` as they are stored: before any motion within the scan is taken
-  /// out, in the frame that they are stored in. @throws DataError as `ScanSource::load`
+  /// The stored records of scan `index`: in the stored frame, without correction of motion within
+  /// the scan. @throws DataError as `ScanSource::load`
   [[nodiscard]] virtual PointRecords records(std::size_t index) const = 0;
-  /// The layout of these records. Where it can be known without reading all points, a source says
-  /// so by a function of its own. @throws DataError as `records`
+  /// The layout of these records. A source overrides this if it need not read all points.
+  /// @throws DataError as `records`
   [[nodiscard]] virtual RecordLayout layout(std::size_t index) const {
     return records(index).layout;
   }

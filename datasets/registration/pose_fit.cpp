@@ -19,18 +19,19 @@
 namespace raymoval::registration {
 namespace {
 
-/// Metres between stations: this share of the median range, within bounds.
+/// Distance between stations: this share of the median range, within bounds in metres.
 constexpr double kStrideShare = 0.4, kLeastStride = 0.5, kMostStride = 8.0;
 constexpr double kMostTurn = 45.0 * kDegree;  // between stations
 constexpr std::size_t kMostScans = 20;        // between stations
-constexpr std::size_t kFarStations = 4;       // A slow drift adds up over so many stations.
-/// A return is within so many strides of a station, after a path of at least so many strides.
+constexpr std::size_t kFarStations = 4;       // A slow drift adds up over this many stations.
+/// A return to a place is within `kReturnStrides` strides of a station, after a path of at least
+/// `kPathStrides` strides.
 constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
 constexpr double kLeastReturn = 1.5;  // metres
 constexpr std::size_t kLeastMatched = 150;
 constexpr double kLeastOverlap = 0.25;
 constexpr double kClearGain = 1.2;
-constexpr std::size_t kFewestPairs = 4;  // Fewer tell nothing: one in some hundred is misjudged.
+constexpr std::size_t kFewestPairs = 4;  // Fewer are no basis: one in some hundred is misjudged.
 constexpr std::size_t kBatch = 32;       // Pairs whose scans are in memory together.
 
 using Pairs = std::vector<PairDistance>;
@@ -48,7 +49,7 @@ double turn_between(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-/// The first and the last scan, and between them one after each stride, turn or number of scans.
+/// The first and the last scan, and between them a scan after each stride, turn or number of scans.
 std::vector<std::size_t> choose_stations(const std::vector<Pose>& poses,
                                          const std::vector<double>& lengths, double stride) {
   std::vector<std::size_t> stations = {0};
@@ -62,7 +63,7 @@ std::vector<std::size_t> choose_stations(const std::vector<Pose>& poses,
   return stations;
 }
 
-/// The stations by cubic cells, so that those near a position are found without asking all.
+/// The stations in cubic cells, to find stations near a position quickly.
 class StationGrid {
  public:
   StationGrid(const std::vector<Pose>& poses, double reach) : poses_(poses), reach_(reach) {}
@@ -71,8 +72,7 @@ class StationGrid {
     cells_[cell_of(poses_[station].translation())].push_back(station);
   }
 
-  /// The station nearest to `position` within the reach for which `is_wanted`; `none` if there is
-  /// none.
+  /// The nearest station to `position` within the reach for which `is_wanted` is true, else `none`.
   template <class Wanted>
   [[nodiscard]] std::size_t nearest(const Eigen::Vector3d& position, std::size_t none,
                                     Wanted&& is_wanted) const {
@@ -106,7 +106,7 @@ class StationGrid {
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// For each station the nearest earlier one that the path came back to.
+/// For each station, adds the nearest earlier station to which the path returned.
 void add_returns(const std::vector<Pose>& poses, const std::vector<double>& lengths,
                  const std::vector<std::size_t>& stations, double stride, Pairs& pairs) {
   StationGrid grid(poses, std::max(kReturnStrides * stride, kLeastReturn));
@@ -116,7 +116,7 @@ void add_returns(const std::vector<Pose>& poses, const std::vector<double>& leng
       return lengths[to] - lengths[station] >= kPathStrides * stride;
     });
     if (from != to) pairs.push_back({from, to});
-    // A sensor at rest has many stations in one place, of which one is enough.
+    // A stationary sensor has many stations in one place; one is enough.
     if (last < poses.size() && lengths[to] - lengths[last] < 0.5 * stride) continue;
     grid.add(to);
     last = to;
@@ -140,7 +140,7 @@ Pairs choose_pairs(const std::vector<Pose>& poses, double stride) {
   return pairs;
 }
 
-/// The surfaces of the scans of a batch of pairs; those that the next batch shares are kept.
+/// The surfaces of the scans of a batch of pairs; surfaces that the next batch needs are kept.
 class SurfaceClouds {
  public:
   SurfaceClouds(const ScanSource& scans, int threads, const std::atomic<bool>* cancel)
@@ -175,8 +175,8 @@ class SurfaceClouds {
 
 namespace {
 
-/// Whether a registration tells something: scans overlap enough, and where it moves surfaces by
-/// much, they fit clearly better.
+/// Whether a registration is conclusive: scans overlap enough, and if surfaces are moved far, they
+/// fit clearly better.
 bool is_clear(const Registration& found) {
   if (found.matched < kLeastMatched || found.overlap < kLeastOverlap) return false;
   return found.shift <= kMostDistance || found.overlap >= kClearGain * found.overlap_of_guess;

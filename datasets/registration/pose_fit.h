@@ -9,7 +9,7 @@
 
 namespace raymoval::registration {
 
-/// How far the surfaces of two overlapping scans lie apart under the given poses.
+/// The distance between the surfaces of two overlapping scans under the given poses.
 struct PairDistance {
   std::size_t from = 0, to = 0;  ///< Positions of the scans, `from` < `to`.
   double distance_m = 0.0;       ///< RMS along the normals, without the sensor's noise.
@@ -18,12 +18,12 @@ struct PairDistance {
 /// How well poses fit the scans.
 struct PoseFit {
   double distance_m = 0.0;  ///< Median over the pairs; 0 if there are none.
-  double noise_m = 0.0;     ///< Median of what registration leaves: the sensor's noise.
-  /// Those with enough overlap, by `from`, then `to`. Empty if they are fewer than four.
+  double noise_m = 0.0;     ///< Median residual after registration: the sensor's noise.
+  /// Pairs with enough overlap, sorted by `from`, then `to`. Empty if there are fewer than four.
   std::vector<PairDistance> pairs;
 };
 
-/// Above these, methods remove more than 2 % of what stands (docs/poses.md has the measurements).
+/// Above these, methods remove more than 2 % of static points (docs/poses.md has the measurements).
 inline constexpr double kMostDistance = 0.05;        // metres, of half the pairs
 inline constexpr double kMostDistanceOfPair = 0.07;  // metres
 
@@ -34,19 +34,19 @@ const PairDistance& worst_pair(const PoseFit& fit);
 inline bool is_within_limits(double median_m, double worst_m) {
   return median_m <= kMostDistance && worst_m <= kMostDistanceOfPair;
 }
-/// The same of a fit; true without pairs.
+/// Whether a fit is within the limits; true without pairs.
 bool fits(const PoseFit& fit);
 
-/// Measures how well the poses of `scans` fit: pairs of overlapping scans are registered, and the
-/// way by which that moves surfaces is the distance. Pairs cover the whole sequence: scans in
-/// succession, stations along the path, every fourth of these, and returns to a place. So a jump
-/// anywhere lies between two scans of a pair.
-/// @param threads the largest number of threads; the answer does not depend on it
+/// Measures how well the poses of `scans` fit. Pairs of overlapping scans are registered; the
+/// distance is how far registration moves surfaces. Pairs cover the whole sequence: successive
+/// scans, stations along the path, every fourth station, and returns to a place. So each jump of
+/// the poses lies between two scans of a pair.
+/// @param threads the largest number of threads; the result does not depend on it
 /// @throws DataError if a scan cannot be read; Cancelled
 PoseFit measure_pose_fit(const ScanSource& scans, int threads,
                          const std::atomic<bool>* cancel = nullptr);
 
-/// The distance of one pair; 0 where the scans do not overlap enough. @throws DataError as above
+/// The distance of one pair; 0 if the scans do not overlap enough. @throws DataError as above
 double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to);
 
 }  // namespace raymoval::registration

@@ -20,7 +20,7 @@ constexpr std::size_t kMostLines = 2000;                               // per sc
 constexpr float kNearestNeighbour = 0.01F, kFarthestNeighbour = 1.5F;  // metres
 constexpr double kStraight = 0.98;  // cosine of the bend of a scan line between three points
 constexpr double kFits = 2.0;       // degrees from the cone at which a line does not fit
-/// Sine of the elevation below which a line says nothing: for an origin on the ground, all lines on
+/// Sine of the elevation below which a line is ignored: for an origin on the ground, all lines on
 /// the ground are level and keep their elevation.
 constexpr double kLevel = 0.05;
 constexpr double kFarthestOrigin = 3;  // metres
@@ -63,7 +63,7 @@ double misfit(const Line& line, const Vector3d& origin, double fits) {
   const Vector3d ray = (line.at - origin).normalized();
   if (std::abs(ray.z()) < kLevel) return 0.5;
   const Vector3d rising = (Vector3d::UnitZ() - ray.z() * ray).normalized();
-  // Across the ray: what lies along it is the noise of ranges, and the slope of the surface.
+  // The part across the ray: the part along it is range noise and the slope of the surface.
   const Vector3d seen = (line.direction - line.direction.dot(ray) * ray).normalized();
   const double angle = std::asin(std::min(1.0, std::abs(seen.dot(rising))));
   return std::min(1.0, angle / (fits * kDegree));
@@ -156,7 +156,7 @@ RayOrigin find_ray_origin(const std::vector<Scan>& scans) {
   if (lines.empty()) return found;
   const std::vector<double> none(lines.size(), 1.0);
   found.misfit_given = mean_misfit(lines, Vector3d::Zero(), kFits, none);
-  // Loose at first: half a metre beside the origin hardly any line fits closely.
+  // A loose limit at first: half a metre beside the origin, hardly any line fits closely.
   search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, none, found.origin);
   search_grid(lines, 0.5, 3, 4.0 * kFits, none, found.origin);
   for (const double span : {0.3, 0.2, 0.1, 0.05, 0.02}) {

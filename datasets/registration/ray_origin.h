@@ -11,19 +11,19 @@
 
 namespace raymoval::registration {
 
-/// Where the rays of a spinning LiDAR start, as its scan lines show it.
+/// The origin of the rays of a spinning LiDAR, from its scan lines.
 struct RayOrigin {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Frame of the points, metres.
-  std::size_t lines = 0;                             ///< Pieces of scan lines that were used.
-  double misfit_given = 1;  ///< Of the lines to the frame's origin, 0 (all fit) to 1 (none does).
+  std::size_t lines = 0;                             ///< Used pieces of scan lines.
+  double misfit_given = 1;  ///< Of the lines to the frame's origin, 0 (all fit) to 1 (none fits).
   double misfit_found = 1;  ///< Of the lines to `origin`.
 };
 
-/// Each beam of a spinning LiDAR has one elevation, so it draws a cone around the sensor's axis,
-/// and a scan line on any surface runs along that cone: where the surface is met from the sensor,
-/// the line does not rise or sink as seen from there. The origin for which most lines keep their
-/// elevation is looked for within 3 m of the frame's origin. Of a solid-state or non-repetitive
-/// LiDAR no lines fit anywhere, and `misfit_found` stays high.
+/// Finds the origin of the rays. Each beam of a spinning LiDAR has one elevation, so its rays form
+/// a cone around the sensor's axis. Seen from the origin, a scan line on any surface keeps its
+/// elevation. The result is the origin within 3 m of the frame's origin for which most lines keep
+/// their elevation. For a solid-state or non-repetitive LiDAR, no origin fits, and `misfit_found`
+/// is high.
 /// @param scans points in one frame that is fixed to the sensor, z along its axis
 RayOrigin find_ray_origin(const std::vector<Scan>& scans);
 

@@ -20,13 +20,13 @@ constexpr std::size_t kFewestMatches = 50;
 constexpr float kLikeNormal = 0.85F;  // cosine
 constexpr double kOnSurface = 0.1;    // metres
 constexpr double kLeastReach = 0.6;   // metres from a point to its counterpart
-constexpr double kWideReach = 3.0;    // the same for guesses that are far off
+constexpr double kWideReach = 3.0;    // the same for guesses with a large error
 constexpr double kLeastCut = 0.05;    // metres at which Tukey's weight ends
 constexpr double kDetermined = 0.01;  // Least share of the weights that determines a direction.
-constexpr double kBetter = 0.03;      // Gain in overlap that a far-off motion must bring.
+constexpr double kBetter = 0.03;      // Least gain in overlap of a motion far from the guess.
 constexpr int kSteps = 15;
 
-/// A point of `to` in the frame of `from`, and the surface that it belongs to.
+/// A point of `to` in the frame of `from`, and its surface.
 struct Match {
   Vector3d at, normal;
   double distance;  ///< Signed, metres.
@@ -63,7 +63,8 @@ double overlap_of(const Matches& matches, std::size_t points) {
   return points == 0 ? 0.0 : sum / static_cast<double>(points);
 }
 
-/// One Gauss-Newton step about the centre of the matches; turns are measured by the way of points.
+/// One Gauss-Newton step about the centre of the matches. Rotations are scaled to the distance that
+/// they move points.
 Pose step_of(const Matches& matches, double cut) {
   Vector3d centre = Vector3d::Zero();
   for (const Match& match : matches) centre += match.at;
@@ -102,7 +103,7 @@ Pose step_of(const Matches& matches, double cut) {
   return step;
 }
 
-/// Counterparts are looked for within `reach` metres at first, and nearer with each step.
+/// Searches counterparts within `reach` metres at first, and nearer with each step.
 Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, Pose motion,
             double reach) {
   for (int k = 0; k < kSteps; ++k) {
@@ -143,7 +144,7 @@ Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, co
       best.overlap = overlap;
       matches = std::move(found);
     }
-    gain = kBetter;  // Farther away it is easier to find something else that fits a little.
+    gain = kBetter;  // With a wide reach, another surface may fit a little by chance.
   }
   best.matched = matches.size();
   best.noise = robust_deviation(matches);

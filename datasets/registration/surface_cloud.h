@@ -23,9 +23,8 @@ inline const Eigen::Vector3f& position_of(const SurfacePoint& point) {
 
 /// The flat surfaces of a scan as points, at most one per cubic cell of 0.256 m.
 ///
-/// Surfaces are those of `for_each_patch`. Points nearer than a quarter of the scan's median range
-/// are left out, because those of the vehicle move along with the sensor; so are points beyond 60
-/// m.
+/// Surfaces are the patches of `for_each_patch`. Points nearer than a quarter of the scan's median
+/// range are left out, because they may be of the ego vehicle. Points beyond 60 m are left out too.
 class SurfaceCloud {
  public:
   explicit SurfaceCloud(const Scan& scan);

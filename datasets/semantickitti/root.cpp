@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Null if papers have no segment of this name.
+/// The segment of this name; null if there is none.
 const PaperSegment* find_segment(const std::string& name) {
   for (const PaperSegment& segment : paper_segments()) {
     if (segment.name == name) return &segment;

@@ -26,10 +26,10 @@
 namespace raymoval {
 namespace {
 
-/// The side file of a simulated scene that says who moves when.
+/// The side file of a simulated scene with the times at which each mover moves.
 inline constexpr const char* kMoversFile = "movers.json";
 
-/// The label of what stands for that of what moves; the id itself for one that says no motion.
+/// The static label of a moving label; other labels are unchanged.
 std::uint16_t standing_id(std::uint16_t id) {
   static const std::map<std::uint16_t, std::uint16_t> ids = {
       {252, 10}, {253, 31}, {254, 30}, {255, 32}, {256, 16}, {257, 13}, {258, 18}, {259, 20}};
@@ -37,12 +37,12 @@ std::uint16_t standing_id(std::uint16_t id) {
   return found == ids.end() ? id : found->second;
 }
 
-/// From which frame on something moves, or does not.
+/// The frame from which an instance moves, or is stationary.
 struct Change {
   long frame = 0;
   bool moves = false;
 };
-/// By instance, in order of frames.
+/// Changes by instance, in order of frames.
 using Motions = std::map<std::uint16_t, std::vector<Change>>;
 
 std::vector<Change> changes_of(const Fields& mover) {
@@ -97,7 +97,7 @@ class MovingNowLabels : public LabelSource {
   }
 
  private:
-  /// For each instance whether it does not move in a frame.
+  /// For each instance, whether it is stationary in a frame.
   [[nodiscard]] std::vector<std::uint8_t> standing(long frame) const {
     std::vector<std::uint8_t> stands(0x10000, 0);
     for (const auto& [instance, changes] : motions_) {
@@ -114,9 +114,9 @@ class MovingNowLabels : public LabelSource {
   std::vector<long> frames_;
 };
 
-/// `labels` in which only what moves at the time of the scan has a moving label. What stands then,
-/// though it moves at another time, has the static label of its kind ("car" for "moving-car") and
-/// keeps its instance. Words whose instance is not in `file` stay as they are.
+/// `labels` in which only objects that move at the time of the scan have a moving label. An object
+/// that is stationary then has the static label of its class ("car" for "moving-car") and keeps its
+/// instance. Labels of instances that are not in `file` are unchanged.
 /// @param file `kMoversFile` of the sequence
 /// @param frames number of the frame of each scan
 /// @throws DataError if `file` is absent or cannot be read; ConfigurationError for a damaged one
@@ -127,8 +127,8 @@ std::shared_ptr<const LabelSource> moving_now_labels(std::shared_ptr<const Label
                                            std::move(frames));
 }
 
-/// A surplus of rows is normal (frames absent from the disk); a lack means that file and scans do
-/// not belong together, and then no row can be trusted.
+/// Refuses too few rows: then file and scans do not belong together, and no row can be trusted. A
+/// surplus of rows is normal (frames absent from the disk).
 void check_row_count(std::size_t rows, const char* what, const std::filesystem::path& path,
                      const std::vector<NumberedFile>& files) {
   const long highest = files.back().number;
@@ -154,7 +154,7 @@ std::optional<Pose> camera_calibration(const std::filesystem::path& folder,
   return read_calibration(calibration, "Tr");
 }
 
-/// times.txt: the time of each frame, by frame number; nothing in it if there is no such file.
+/// times.txt: the time of each frame, by frame number; empty if there is no such file.
 StampColumn frame_stamps(const std::filesystem::path& folder,
                          const std::vector<NumberedFile>& files,
                          std::vector<std::filesystem::path>& input_files) {
@@ -179,7 +179,7 @@ ScanKeys scan_keys(const std::vector<NumberedFile>& files, const std::vector<Num
   return keys;
 }
 
-/// Frames with their poses; those without are left out.
+/// Frames with their poses. Frames without a pose are left out.
 std::vector<FrameEntry> frame_entries(const std::vector<NumberedFile>& chosen,
                                       const ScanPoses& poses, const RecordReading& reading) {
   std::vector<FrameEntry> frames;
@@ -204,7 +204,7 @@ std::vector<long> frame_numbers(const ChosenFrames& chosen, const ScanPoses& pos
   return numbers;
 }
 
-/// "0:3:2" of the frames there are; empty if no range has just them.
+/// "0:3:2" of the existing frames; empty if no range matches them exactly.
 std::string whole_range_text(const std::vector<NumberedFile>& files) {
   const long first = files.front().number;
   const long last = files.back().number;
@@ -216,7 +216,7 @@ std::string whole_range_text(const std::vector<NumberedFile>& files) {
   return stride == 1 ? text : text + ":" + std::to_string(stride);
 }
 
-/// What to say of data that lacks frames of a segment.
+/// The message for data that lacks frames of a segment.
 std::string lacks_frames_text(const std::filesystem::path& folder, const std::string& segment,
                               const FrameRange& frames, const std::vector<NumberedFile>& files) {
   const std::string part = whole_range_text(files);
@@ -227,7 +227,7 @@ std::string lacks_frames_text(const std::filesystem::path& folder, const std::st
          (part.empty() ? "" : " --frames " + part) + ".";
 }
 
-/// @param segment whose frames these are if the user named none; empty: of the user
+/// @param segment whose frames these are, for messages; empty if the user gave frames
 ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRange& frames,
                            const std::filesystem::path& folder, const std::string& segment) {
   try {
@@ -238,7 +238,7 @@ ChosenFrames chosen_frames(const std::vector<NumberedFile>& files, const FrameRa
   }
 }
 
-/// The poses of the chosen frames; `sequence` gets what is to be said of them.
+/// The poses of the chosen frames; `sequence` gets notes on them.
 ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSettings& settings,
                       const ScanKeys& keys, Sequence& sequence) {
   PoseSettings options = pose_settings(settings, folder, sequence.input_files);
@@ -249,7 +249,7 @@ ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSetting
   sequence.poses_file = path.filename().string();
   sequence.input_files.push_back(path);
   const PoseFile file = read_pose_file(path, {settings.pose_format});
-  // A user who says where the sensor is on the body has no poses of the camera of calib.txt.
+  // With T_sensor, the poses are not those of the camera of calib.txt.
   if (!settings.T_sensor) sequence.T_camera_lidar = camera_calibration(folder, settings);
   if (sequence.T_camera_lidar) {
     sequence.input_files.push_back(folder / "calib.txt");

@@ -18,7 +18,7 @@ constexpr const char* kForm =
     "expected x,y,z,qx,qy,qz,qw (the position of the sensor on the body in metres, and its "
     "attitude), or a file with these seven numbers or a 3 x 4 or 4 x 4 matrix";
 
-/// The numbers between blanks, commas and line ends; nothing if there is anything else.
+/// The numbers between blanks, commas and line ends; empty if a word is no number.
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
   constexpr std::string_view kBetween = " \t\r\n,;";
   constexpr std::size_t kMost = 16;

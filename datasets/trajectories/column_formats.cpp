@@ -9,7 +9,7 @@
 namespace raymoval::pose_formats {
 namespace {
 
-constexpr double kUnit = 1e-3;  // What a quaternion's length may deviate by.
+constexpr double kUnit = 1e-3;  // Largest deviation of a quaternion's length from 1.
 
 /// Columns of a matrix behind a time, or alone.
 PoseColumns matrix_columns(Rotation rotation, std::size_t numbers, bool has_time) {
@@ -40,7 +40,7 @@ PoseColumns fast_lio_columns() {
   return columns;
 }
 
-/// Those of `all` that have `count` words; null if there are none.
+/// The entry of `all` with `count` words; null if there is none.
 const PoseColumns* columns_of(const std::vector<PoseColumns>& all, std::size_t count) {
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const PoseColumns& one) { return one.count == count; });
@@ -61,14 +61,13 @@ bool ends_with_unit_row(const std::vector<double>& numbers) {
          numbers[n - 1] == 1.0;
 }
 
-/// What the rows say of the order of eight numbers between commas. The length of a quaternion does
-/// not depend on the order, but a vehicle mostly turns about z, so that the x and y of its
-/// quaternions are small.
+/// The order of quaternions in rows of eight numbers between commas. A vehicle mostly turns about
+/// z, so x and y of its quaternions are small. (The length does not depend on the order.)
 enum class QuaternionOrder { kUnknown, kScalarFirst, kScalarLast };
 
 QuaternionOrder quaternion_order(const PoseText& text) {
   constexpr double kSmall = 0.2;
-  double last = 0.0, first = 0.0;  // Largest part that x and y would have under each order.
+  double last = 0.0, first = 0.0;  // Largest x or y under each order.
   text.for_each_row([&](const TextRow& row) {
     if (row.words.size() < 8) return;
     const double a = text.number(row, 4), b = text.number(row, 5), c = text.number(row, 6);
@@ -77,18 +76,18 @@ QuaternionOrder quaternion_order(const PoseText& text) {
   });
   if (last <= kSmall && first > kSmall) return QuaternionOrder::kScalarLast;
   if (first <= kSmall && last > kSmall) return QuaternionOrder::kScalarFirst;
-  // Both small: only the last number is large. It is w, unless the vehicle came about by 180 deg.
+  // Both small: only the last number is large. It is w, unless the vehicle turned by 180 degrees.
   return last <= kSmall ? QuaternionOrder::kScalarLast : QuaternionOrder::kUnknown;
 }
 
-/// The times of EuRoC's files are whole nanoseconds since 1970.
+/// Whether times are whole nanoseconds since 1970, as in EuRoC's files.
 bool has_nanoseconds(const PoseText& text) {
   const std::string_view time = text.first().words.front();
   return time.size() >= 17 && all_digits(time);
 }
 
-/// Whether a text of eight numbers a row is EuRoC's, or has TUM's order.
-/// @throws DataError if nobody can tell
+/// Whether a text of eight numbers per row is EuRoC's, and not in TUM's order.
+/// @throws DataError if that is ambiguous
 bool is_euroc_of_eight(const PoseText& text) {
   if (text.separator() == ' ') return false;
   const QuaternionOrder order = quaternion_order(text);
@@ -118,7 +117,7 @@ Match match_tum(const PoseText& text) {
   return fits ? Match::kYes : Match::kNo;
 }
 
-/// Seven numbers are taken for position and quaternion only in a file of that name.
+/// Accepts seven numbers as position and quaternion only in a file of HBA's name.
 Match match_hba(const PoseText& text) {
   if (text.first().words.size() != 7) return Match::kNo;
   return text.path().extension() == ".json" ? Match::kYes : Match::kPossible;
@@ -126,14 +125,14 @@ Match match_hba(const PoseText& text) {
 
 [[noreturn]] void throw_count(const PoseText& text, const PoseFormatName& name) {
   const TextRow& row = text.first();
-  if (!row.words.empty()) (void)text.numbers(row);  // What is no number says more.
+  if (!row.words.empty()) (void)text.numbers(row);  // Reports a word that is no number first.
   throw DataError(text.place(row.line) + ": " + std::to_string(row.words.size()) +
                   " numbers; expected, for a file of format " + name.name + ", " + name.sentence +
                   ".");
 }
 
-/// Rows of a matrix behind a time, or behind the number of their frame as in KITTI-360: whole
-/// numbers that are too small for times since 1970 in any unit.
+/// Rows of a matrix behind a time or, as in KITTI-360, a frame number: whole numbers that are too
+/// small for times since 1970 in any unit.
 PoseFile read_numbered(const PoseText& text, PoseColumns columns) {
   constexpr std::size_t kMostDigits = 8;
   std::vector<long> frames;
@@ -153,7 +152,7 @@ PoseFile read_numbered(const PoseText& text, PoseColumns columns) {
   return file;
 }
 
-/// @param columns for each count of words that the format may have in a row
+/// @param columns for each possible number of words in a row
 TextFormat fixed(const PoseFormatName& name, const std::vector<PoseColumns>& columns,
                  std::function<Match(const PoseText&)> match = nullptr) {
   if (!match) {
@@ -170,7 +169,7 @@ TextFormat fixed(const PoseFormatName& name, const std::vector<PoseColumns>& col
   return {name, match, read};
 }
 
-/// A matrix of 16 numbers, and where its last number stands in the text.
+/// A matrix of 16 numbers, and the place of its last number in the text.
 struct Block {
   std::vector<double> numbers = {};
   std::size_t line = 0, last_line = 0;
@@ -228,8 +227,9 @@ PoseFile read_blocks(const PoseText& text) {
   return file;
 }
 
-/// CT-ICP writes the time of the reference and the first number of the quaternion without a blank
-/// between them ("-10.25" is -1 and 0.25). The length of the quaternion tells where to cut.
+/// Splits a word of CT-ICP, which writes no blank between the time of the reference and the first
+/// number of the quaternion ("-10.25" is -1 and 0.25). The quaternion has length 1 after the right
+/// split.
 /// @return the first number of the quaternion
 double cut_quaternion(const PoseText& text, const TextRow& row, std::size_t word) {
   constexpr std::size_t kLongest = 64;
@@ -290,7 +290,7 @@ TextFormat ct_icp() {
   return {name, match, [name](const PoseText& text) { return read_ct_icp(text, name); }};
 }
 
-/// A file of matrices in blocks, or in rows as those of other formats.
+/// A file of matrices in blocks or in rows.
 TextFormat matrix() {
   TextFormat rows = fixed(
       {"matrix",

@@ -12,7 +12,7 @@
 namespace raymoval::pose_formats {
 namespace {
 
-/// A name of a column: its parts in small letters, and what stands in brackets.
+/// A column name: its parts in small letters, and the text in brackets.
 struct ColumnName {
   std::vector<std::string> parts;
   std::string unit;
@@ -43,7 +43,7 @@ bool is_one_of(const std::string& text, const std::vector<std::string>& all) {
   return std::find(all.begin(), all.end(), text) != all.end();
 }
 
-/// What a column holds: "x", "qw", "roll", "heading", "time", "sec", "nsec", or "" for others.
+/// The meaning of a column: "x", "qw", "roll", "heading", "time", "sec", "nsec", or "" for others.
 std::string meaning(const ColumnName& name) {
   if (name.parts.empty()) return "";
   const std::string& last = name.parts.back();
@@ -69,7 +69,7 @@ std::string meaning(const ColumnName& name) {
                            : alone ? before
                                    : last.substr(0, last.size() - 1);
   if (is_one_of(kind, {"q", "quat", "quaternion", "orientation", "rot", "rotation"})) {
-    // A rotation of three numbers is no quaternion: that is seen when its w is missing.
+    // A rotation of three numbers is no quaternion: its w is missing.
     return std::string("q") + axis;
   }
   if (axis == 'w') return alone && name.parts.size() == 1 ? "qw" : "";
@@ -89,7 +89,7 @@ std::map<std::string, std::size_t> meanings(const std::vector<std::string_view>&
   std::map<std::string, std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string what = meaning(parse_name(names[i]));
-    // `rostopic echo -p` has the time of recording first, and that of the message behind it.
+    // `rostopic echo -p` has the time of recording first, then the time of the message.
     const bool better = what == "time" && names[i].find("header.stamp") != std::string_view::npos;
     if (!what.empty() && (better || found.count(what) == 0)) found[what] = i;
   }
@@ -102,7 +102,7 @@ bool has_all(const std::map<std::string, std::size_t>& found,
                      [&](const std::string& name) { return found.count(name) > 0; });
 }
 
-/// The columns, or nothing if position or rotation are missing.
+/// The columns; empty if position or rotation is missing.
 std::optional<PoseColumns> columns_of(const PoseText& text) {
   const auto found = meanings(text.names());
   if (text.names().empty() || !has_all(found, {"x", "y", "z"})) return std::nullopt;
@@ -142,13 +142,13 @@ std::optional<PoseColumns> columns_of(const PoseText& text) {
 
 Match match_named_columns(const PoseText& text) {
   const auto columns = columns_of(text);
-  // A comment that has the same count of words only by chance names no columns.
+  // A comment without column names may have as many words by chance.
   const bool fits = columns && text.first().words.size() == columns->count;
   if (text.has_header()) return columns ? Match::kYes : Match::kNo;
   return fits ? Match::kYes : Match::kNo;
 }
 
-/// Angles beyond two turns are no radians.
+/// Angles beyond two turns are in degrees, not radians.
 void check_angles(const PoseText& text, PoseColumns& columns, std::vector<std::string>& notes) {
   if (columns.rotation != Rotation::kEulerRadians) return;
   constexpr double kMostRadians = 6.3;

@@ -89,7 +89,7 @@ double number_at(const char* bytes, std::size_t size, bool big_endian) {
   return number;
 }
 
-/// How many numbers a pose has in an array N x 4 x 4, N x 3 x 4, N x 12 or N x 16.
+/// The number of values per pose in an array N x 4 x 4, N x 3 x 4, N x 12 or N x 16.
 /// @throws DataError for arrays of another shape or type
 std::size_t numbers_of_pose(const NpyHead& head, const std::string& where) {
   const std::vector<std::uint64_t>& shape = head.shape;
@@ -106,7 +106,7 @@ std::size_t numbers_of_pose(const NpyHead& head, const std::string& where) {
   return static_cast<std::size_t>(plane ? shape[1] : 4 * shape[1]);
 }
 
-/// Where number `k` of pose `i` stands among all numbers of the array.
+/// The index of number `k` of pose `i` in the array.
 std::size_t place_of(const NpyHead& head, std::size_t i, std::size_t k, std::size_t numbers) {
   if (!head.by_columns) return i * numbers + k;
   // In Fortran order the first index runs fastest, then the row of a matrix, then its column.

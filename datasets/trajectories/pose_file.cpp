@@ -16,7 +16,8 @@ using pose_formats::Match;
 using pose_formats::PoseText;
 using pose_formats::TextFormat;
 
-/// Those of names first: a line of names says more than a count of numbers.
+/// All text formats. Named columns come first, because names are more certain than the number of
+/// columns.
 const std::vector<TextFormat>& text_formats() {
   static const std::vector<TextFormat> all = [] {
     std::vector<TextFormat> list = {pose_formats::g2o_format(),
@@ -42,7 +43,7 @@ constexpr const char* kList = "`raymoval list pose-formats` names all forms.";
                     "(KITTI) or 8 (TUM) numbers. " +
                     kList);
   }
-  (void)text.numbers(row);  // What is no number says more than the count.
+  (void)text.numbers(row);  // Reports a word that is no number first.
   std::string also;
   for (const TextFormat& format : text_formats()) {
     if (format.match(text) == Match::kPossible) {
@@ -64,7 +65,7 @@ const TextFormat& format_of(const PoseText& text, const PoseReading& reading) {
   throw_unknown(text);
 }
 
-/// Puts the rows in order of time.
+/// Sorts the rows by time.
 void sort_rows(PoseFile& file) {
   const auto earlier = [](const auto& a, const auto& b) { return a.stamp < b.stamp; };
   std::size_t late = 0;
@@ -77,14 +78,14 @@ void sort_rows(PoseFile& file) {
                        " followed a later one; the rows were sorted by time.");
 }
 
-/// Poses of one time that are far apart belong to no trajectory.
+/// Refuses poses of one time that are far apart.
 void check_times(const PoseFile& file) {
   constexpr double kFarthest = 0.2;  // Metres.
   for (std::size_t i = 1; i < file.rows.size(); ++i) {
     const PoseFile::Row &before = file.rows[i - 1], &row = file.rows[i];
     if (!row.stamp || *row.stamp != *before.stamp) continue;
     const double distance = (row.matrix.col(3) - before.matrix.col(3)).norm();
-    if (!(distance > kFarthest)) continue;  // Nor if one of them is no pose.
+    if (!(distance > kFarthest)) continue;  // Also if a row has no pose (NaN).
     throw DataError(file.place(i) + ": time " + stamp_text(*row.stamp) + " s is that of line " +
                     std::to_string(before.line) + ", but the poses are " + number_text(distance) +
                     " m apart; expected one pose a time, or poses within 0.2 m. If times are equal "
@@ -100,7 +101,7 @@ void check_format_name(const std::string& name) {
   throw UsageError("there is no pose format '" + name + "'." + suggestion(name, names));
 }
 
-/// Takes ":inverse" off the name of a format. @return whether it was there
+/// Removes ":inverse" from the name of a format. @return whether it was there
 bool take_inverse(std::optional<std::string>& format) {
   constexpr std::string_view kInverse = "inverse";
   if (!format || !format->ends_with(kInverse)) return false;
@@ -110,7 +111,7 @@ bool take_inverse(std::optional<std::string>& format) {
   return true;
 }
 
-/// Of a rigid motion. What is none stays none, for `rigid_pose` to say so.
+/// The inverse of a rigid motion. Another matrix stays invalid, so that `rigid_pose` reports it.
 Eigen::Matrix<double, 3, 4> inverse_of(const Eigen::Matrix<double, 3, 4>& pose) {
   Eigen::Matrix<double, 3, 4> inverse;
   inverse.leftCols<3>() = pose.leftCols<3>().transpose();
@@ -150,7 +151,7 @@ PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& as
   }
   const bool any = std::any_of(file.rows.begin(), file.rows.end(),
                                [](const PoseFile::Row& row) { return row.has_pose(); });
-  if (!any) (void)rigid_pose(file, 0);  // Says that it is not finite.
+  if (!any) (void)rigid_pose(file, 0);  // Throws: the pose is not finite.
   if (file.stamped()) sort_rows(file);
   check_times(file);
   for (PoseFile::Row& row : file.rows) {
@@ -165,15 +166,15 @@ Pose rigid_pose(const PoseFile& file, std::size_t row) {
 
 namespace {
 
-/// The pose at `stamp` of the motion from `a` to `b` that goes on beyond them.
+/// Extrapolates the motion from `a` to `b` to `stamp`.
 StampedPose continued(const StampedPose& a, const StampedPose& b, Nanoseconds stamp) {
   const double share =
       static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp);
   return {stamp, a.T_world_body * part_of(a.T_world_body.inverse() * b.T_world_body, share)};
 }
 
-/// Gives the first and last rows a pose if they have none and the next one is near in time. Without
-/// it the scans at the ends would be lost, since nothing else is extrapolated.
+/// Extrapolates poses for the first and last rows if they have none and the next pose is near in
+/// time. Else the scans at the ends would be lost.
 void continue_ends(const PoseFile& file, std::vector<StampedPose>& poses) {
   constexpr Nanoseconds kNear = 200'000'000;
   if (poses.size() < 2) return;

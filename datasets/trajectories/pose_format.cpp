@@ -105,7 +105,7 @@ double PoseText::number(const TextRow& row, std::size_t word) const {
   const std::string_view text = row.words[word];
   if (const auto value = parse_number<double>(text)) return *value;
   const auto column = static_cast<std::size_t>(text.data() - row.text.data()) + 1;
-  // "1,5 0 0": decimal commas are taken for what stands between the numbers.
+  // "1,5 0 0": decimal commas look like separators.
   const bool blanks_inside = separator_ == ',' && text.find(' ') != std::string_view::npos;
   throw DataError(place(row.line) + ", column " + std::to_string(column) + ": '" +
                   std::string(text.substr(0, 40)) + "' is not a number; expected numbers between " +
@@ -226,7 +226,7 @@ void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
   }
 }
 
-/// The numbers of a row; 0 for words that are not used and no numbers.
+/// The numbers of a row; 0 for unused words that are no numbers.
 std::vector<double> used_numbers(const PoseText& text, const TextRow& row,
                                  const PoseColumns& columns) {
   std::vector<double> numbers(row.words.size(), 0.0);
@@ -249,7 +249,7 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
   text.for_each_row([&](const TextRow& row) {
     const std::string where = text.place(row.line);
     if (row.words.size() != columns.count) {
-      // What is no number says more than the count.
+      // Reports a word that is no number first.
       if (columns.others_are_numbers) (void)text.numbers(row);
       throw DataError(where + ": " + std::to_string(row.words.size()) + " numbers; expected " +
                       std::to_string(columns.count) +

@@ -23,7 +23,7 @@ struct TextRow {
   std::vector<std::string_view> words;
 };
 
-/// A text with a row of words a line, between blanks, commas or semicolons.
+/// A text with a row of words per line, separated by blanks, commas or semicolons.
 class PoseText {
  public:
   PoseText(std::filesystem::path path, std::string content);
@@ -31,14 +31,14 @@ class PoseText {
   PoseText& operator=(const PoseText&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// What stands between the words of the first row: ' ', ',' or ';'.
+  /// The separator of the first row: ' ', ',' or ';'.
   [[nodiscard]] char separator() const { return separator_; }
-  /// The names above the columns, as they are written: of a first line without numbers, or of the
-  /// last comment above the numbers. It is empty if there is no such line.
+  /// The column names: from a first line without numbers, or from the last comment above the
+  /// numbers. Empty if there is no such line.
   [[nodiscard]] const std::vector<std::string_view>& names() const { return names_; }
-  /// Whether the names stand in a line of their own, which is no comment.
+  /// Whether the names are in a line that is no comment.
   [[nodiscard]] bool has_header() const { return header_line_ > 0; }
-  /// The first row of numbers; no words if there is none.
+  /// The first row of numbers; without words if there is none.
   [[nodiscard]] const TextRow& first() const { return first_; }
   /// "poses.txt: line 12".
   [[nodiscard]] std::string place(std::size_t line) const;
@@ -60,14 +60,14 @@ class PoseText {
   }
 
   /// Word `word` of `row` as a number.
-  /// @throws DataError with file, line and column if it is none
+  /// @throws DataError with file, line and column if it is no number
   [[nodiscard]] double number(const TextRow& row, std::size_t word) const;
   /// All words of `row` as numbers.
   [[nodiscard]] std::vector<double> numbers(const TextRow& row) const;
 
  private:
   static bool is_blank_or_comment(std::string_view line);
-  /// What stands behind a # is no word; a date and the time of day behind it are one.
+  /// Text behind a # is ignored; a date and the time of day behind it are one word.
   [[nodiscard]] std::vector<std::string_view> split_words(std::string_view line) const;
   void look_at_head();
 
@@ -79,7 +79,7 @@ class PoseText {
   TextRow first_;
 };
 
-/// How a row of numbers says a rotation.
+/// The form of a rotation in a row of numbers.
 enum class Rotation {
   kMatrix3x4,     ///< Twelve numbers with the position among them.
   kMatrix4x4,     ///< Sixteen; the last four are 0 0 0 1.
@@ -87,20 +87,20 @@ enum class Rotation {
   kVector,        ///< Axis times angle, radians.
   kEulerRadians,  ///< Roll, pitch, yaw of Rz(yaw) Ry(pitch) Rx(roll).
   kEulerDegrees,
-  kBoreas,  ///< Roll, pitch, heading of Rx(-roll) Ry(-pitch) Rz(-heading), as pyboreas has them.
+  kBoreas,  ///< Roll, pitch, heading of Rx(-roll) Ry(-pitch) Rz(-heading), as in pyboreas.
 };
 
-/// Which of the numbers of a row mean what.
+/// The meaning of the numbers of a row.
 struct PoseColumns {
   std::size_t count = 0;           ///< Words in a row.
-  bool others_are_numbers = true;  ///< Whether words that are not used have to be numbers.
+  bool others_are_numbers = true;  ///< Whether unused words must be numbers.
   Rotation rotation = Rotation::kQuaternion;
   std::size_t matrix = 0;                       ///< First number of a matrix.
   std::array<std::size_t, 3> position = {};     ///< x y z, if there is no matrix.
   std::array<std::size_t, 4> turn = {};         ///< The numbers of the rotation, in its order.
-  std::optional<std::size_t> time;              ///< Seconds, or as `unit` says.
+  std::optional<std::size_t> time;              ///< Seconds, or in `unit`.
   std::optional<std::size_t> nanoseconds;       ///< To be added to whole seconds in `time`.
-  std::optional<TimeUnit> unit = std::nullopt;  ///< Nothing: to be told by the times.
+  std::optional<TimeUnit> unit = std::nullopt;  ///< Empty: detected from the times.
 };
 
 /// The pose in a row of numbers.
@@ -109,23 +109,23 @@ Eigen::Matrix<double, 3, 4> pose_matrix(const std::vector<double>& numbers,
                                         const PoseColumns& columns, const std::string& where);
 
 /// Reads all rows of a text.
-/// @throws DataError naming file and line for a row with another count of numbers
+/// @throws DataError naming file and line for a row with another number of columns
 PoseFile read_columns(const PoseText& text, const PoseColumns& columns);
 
 /// Gives the rows of `file` their times.
-/// @param words a time for each row, and `extra` nanoseconds to be added to it, or nothing
-/// @throws DataError for what is no time
+/// @param words a time for each row; `extra` has nanoseconds to be added, or is empty
+/// @throws DataError for a word that is no time
 void set_stamps(PoseFile& file, const std::vector<std::string_view>& words,
                 const std::vector<std::string_view>& extra, std::optional<TimeUnit> unit);
 
-/// How sure the content makes that a text is of a format.
+/// How certain it is, by its content, that a text is of a format.
 enum class Match {
   kNo,
-  kPossible,  ///< It can be read so, but another order of the columns fits as well.
+  kPossible,  ///< It fits, but so does another order of the columns.
   kYes,
 };
 
-/// A form of pose file that is a text.
+/// A pose format that is text.
 struct TextFormat {
   PoseFormatName name;
   std::function<Match(const PoseText&)> match;
@@ -139,11 +139,11 @@ TextFormat named_columns_format();
 /// Pose graphs of g2o.
 TextFormat g2o_format();
 
-/// The names of the forms that are no text of rows.
+/// The names of the formats that are no text of rows.
 std::vector<PoseFormatName> binary_format_names();
 
-/// Reads `path` if it is, or is said to be, an .npy array of matrices or a .pcd file of key poses.
-/// @return nothing if it is a text of rows
+/// Reads `path` if it is, or is given as, an .npy array of matrices or a .pcd file of key poses.
+/// @return empty if it is a text of rows
 /// @throws DataError
 std::optional<PoseFile> read_binary_poses(const std::filesystem::path& path,
                                           const PoseReading& reading);

@@ -12,24 +12,24 @@
 namespace raymoval {
 namespace {
 
-/// Where the sensor is on the body that has the poses.
+/// The pose of the sensor on the body.
 Pose mounting(const PoseSettings& settings) {
   if (settings.T_camera_lidar) return *settings.T_camera_lidar;
   return settings.T_body_sensor.value_or(Pose::Identity());
 }
 
-/// The pose of the body, of a pose in the file: in a world whose axes are those of the sensor.
+/// The pose of the body from a pose in the file, in a world with the axes of the sensor.
 Pose body_pose(const Pose& pose, const PoseSettings& settings) {
   return settings.T_camera_lidar ? settings.T_camera_lidar->inverse() * pose : pose;
 }
 
-/// The pose of the sensor, of a pose in the file.
+/// The pose of the sensor from a pose in the file.
 Pose sensor_pose(const Pose& pose, const PoseSettings& settings) {
   if (!settings.T_camera_lidar && !settings.T_body_sensor) return pose;
   return body_pose(pose, settings) * mounting(settings);
 }
 
-/// Times of scans that have none: those of the rows, or what is assumed.
+/// Times of scans without times: the times of the rows, or assumed times.
 std::vector<Nanoseconds> assumed_stamps(const ScanKeys& scans, const PoseFile* file) {
   if (!scans.stamps.empty()) return scans.stamps;
   std::vector<Nanoseconds> stamps;
@@ -50,7 +50,7 @@ ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSetting
   result.stamps = scans.stamps;
   std::vector<StampedPose> poses = stamped_poses(file, result.notes);
   for (StampedPose& pose : poses) pose.T_world_body = body_pose(pose.T_world_body, settings);
-  // What goes along a straight line from pose to pose is the body, not a sensor beside its middle.
+  // The body moves on a straight line between poses; a sensor beside its centre does not.
   std::vector<MotionStep> steps(2);
   steps[0].moving = Trajectory(std::move(poses));
   steps[1].fixed = mounting(settings);
@@ -63,7 +63,7 @@ ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSetting
   return result;
 }
 
-/// Says how many of the scans have no pose. @throws PosesMissing if it is half of them or more
+/// Reports the number of scans without a pose. @throws PosesMissing if it is half of them or more
 void tell_missing(const PoseFile& file, const std::string& why, const std::string& remedy,
                   ScanPoses& result) {
   const auto missing =
@@ -100,7 +100,7 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
   return result;
 }
 
-/// Poses that name the frames they belong to.
+/// Looks up poses by frame number.
 ScanPoses by_frame(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
   refuse_offset(settings, "the poses have no times");
   std::map<long, std::size_t> rows;

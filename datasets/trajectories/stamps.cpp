@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNanosecondDigits = 9;
 
-/// A decimal number: `digits` with the point behind the first `point` of them.
+/// A decimal number: `digits` with the point behind the first `point` digits.
 struct Decimal {
   bool negative = false;
   std::string digits;
@@ -65,13 +65,13 @@ std::optional<Nanoseconds> whole_number(const Decimal& decimal, int shift) {
   return decimal.negative ? -value : value;
 }
 
-/// Since 1973 and before 2109.
+/// Whether `stamp` is from 1973 to 2109.
 bool is_since_1970(Nanoseconds stamp) {
   return stamp > 100'000'000'000'000'000 && stamp < kMostStamp;
 }
 
-/// A time as a double: 0 for what is no time, and for one that is nearer to 0 than any double, such
-/// as 1e-400.
+/// A time as a double: 0 for a word that is no time, and for a time that is nearer to 0 than any
+/// double, such as 1e-400.
 double rough_number(std::string_view word) {
   return parse_number<double>(word).value_or(0.0);
 }
@@ -105,7 +105,7 @@ std::vector<std::string_view> content_lines(std::string_view text) {
 struct NameTime {
   std::string_view seconds, part;
   bool since_1970 = true;
-  bool marked = true;  ///< Whether a mark stands between the two.
+  bool marked = true;  ///< Whether there is a mark between the two.
 };
 
 std::string_view digits_at(std::string_view text, std::size_t at) {
@@ -114,7 +114,7 @@ std::string_view digits_at(std::string_view text, std::size_t at) {
   return text.substr(at, end - at);
 }
 
-/// The time that begins with the digits `run` of `stem`, which stand at `at`.
+/// The time that begins with the digits `run` at position `at` of `stem`.
 std::optional<NameTime> time_at(std::string_view stem, std::size_t at, std::string_view run) {
   constexpr std::size_t kSeconds = 10;
   const std::string_view seconds = run.substr(0, kSeconds);
@@ -189,8 +189,8 @@ std::optional<Nanoseconds> stamp_of(const NameTime& time, int digits) {
   return *whole + *part;
 }
 
-/// Fills in the times and their cost: the share that lies outside `span`, and how unevenly they
-/// follow each other. @return false if two are equal, or nearer than those of any sensor
+/// Fills in the times and their cost: the share outside `span`, and the unevenness of the spacing.
+/// @return false if two times are equal, or nearer than for any sensor
 bool read_names(const std::vector<NameTime>& times,
                 const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span,
                 NameReading& reading) {
@@ -226,7 +226,7 @@ std::optional<Nanoseconds> parse_stamp(std::string_view text) {
 
 namespace {
 
-/// Takes "Z", "+01:00" or "-0530" off the end of a time of day. @return the shift in nanoseconds
+/// Removes "Z", "+01:00" or "-0530" from the end of a time of day. @return the shift, nanoseconds
 Nanoseconds take_time_zone(std::string_view& text) {
   if (text.ends_with('Z')) text.remove_suffix(1);
   const std::size_t sign = text.find_first_of("+-");
@@ -235,7 +235,7 @@ Nanoseconds take_time_zone(std::string_view& text) {
   std::erase(digits, ':');
   const auto value =
       all_digits(digits) && digits.size() == 4 ? parse_number<int>(digits) : std::nullopt;
-  if (!value) return 0;  // The sign stays, so that this is no time.
+  if (!value) return 0;  // The sign is kept, so that this is no time.
   const Nanoseconds shift = (*value / 100 * 60 + *value % 100) * 60'000'000'000;
   const bool negative = text[sign] == '-';
   text = text.substr(0, sign);

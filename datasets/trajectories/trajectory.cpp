@@ -93,8 +93,7 @@ std::string range_text(Nanoseconds first, Nanoseconds last) {
   return stamp_text(first) + " s to " + stamp_text(last) + " s";
 }
 
-/// What would help: a shift of the clock if the ranges hardly touch, a larger gap if that is the
-/// reason of most.
+/// The remedy: a time offset if the ranges hardly overlap, a larger gap if most scans are in gaps.
 std::string remedy(const std::vector<Nanoseconds>& stamps, const SensorMotion& motion,
                    const Missing& missing) {
   if (missing.in_gap > missing.before + missing.after) {
@@ -134,7 +133,7 @@ std::optional<Pose> SensorMotion::at(Nanoseconds stamp) const {
 }
 
 std::pair<Nanoseconds, Nanoseconds> SensorMotion::span() const {
-  // Without a moving step it is known at any time that a clock has.
+  // Without a moving step, the pose is known at all times.
   constexpr Nanoseconds kAnyTime = Nanoseconds{1} << 61;
   std::pair<Nanoseconds, Nanoseconds> span{-kAnyTime, kAnyTime};
   for (const MotionStep& link : steps_) {

@@ -15,7 +15,7 @@
 namespace raymoval {
 namespace {
 
-/// "y" -> 1; nothing for what names no axis.
+/// "y" -> 1; empty for a text that names no axis.
 std::optional<Eigen::Index> axis_named(const std::string& name) {
   if (name.size() != 1 || name[0] < 'x' || name[0] > 'z') return std::nullopt;
   return name[0] - 'x';
@@ -67,39 +67,39 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kScans = 8;
 constexpr float kNearestPatch = 1.0F, kFarthestPatch = 100.0F;  ///< Metres from the sensor.
-constexpr double kFarthestSurface = 30.0;  ///< The same, but for the floor of what flies.
+constexpr double kFarthestSurface = 30.0;  ///< Metres; beyond, only floor counts (drones).
 constexpr double kMostArea = 4.0;          ///< Square metres that a patch counts for at most.
 
 // The ground.
-constexpr double kLowest = 0.3, kHighest = 8.0;  ///< Metres that a sensor stands above it.
+constexpr double kLowest = 0.3, kHighest = 8.0;  ///< Height of a sensor above it, metres.
 constexpr double kNear = 20.0;                   ///< Metres from the sensor.
 constexpr double kGroundSpread = 12.0;           ///< Degrees between pieces of one ground.
 constexpr double kSensorPrior = 0.5, kWorldPrior = 0.2;
-constexpr double kLeastGround = 4.0;  ///< Square metres a scan.
+constexpr double kLeastGround = 4.0;  ///< Square metres per scan.
 
-// What the usual direction must lack for another one to be up.
+// Evidence against the usual direction.
 constexpr double kMostFloor = 0.25;  ///< Floor of the usual direction, as a share of the other's.
 constexpr double kMostFloorByPath = 0.67;  ///< The same if the path contradicts it, too.
-constexpr double kMostSky = 0.5;           ///< The same under a sky, as a share of the usual one's.
-constexpr double kMostCeiling = 0.5;       ///< What faces the other's floor, as a share of it.
-constexpr double kLeastPath = 0.5;         ///< Metres that a path extends in two directions.
-constexpr double kFlatPath = 0.3;          ///< Its extent across them, as a share.
+constexpr double kMostSky = 0.5;           ///< Largest `open` under a sky, as a share of `closed`.
+constexpr double kMostCeiling = 0.5;  ///< Share of `closed` or `open` above which it is a ceiling.
+constexpr double kLeastPath = 0.5;    ///< Metres that a path extends in two directions.
+constexpr double kFlatPath = 0.3;     ///< Extent of the path across them, as a share.
 
 // Upright surfaces.
-constexpr double kCone = 30.0;  ///< Degrees that up may be away from the ground's direction.
-/// What a direction loses at the cone's edge against the ground's own, as a share of all sides.
+constexpr double kCone = 30.0;  ///< Largest angle of up to the ground's direction, degrees.
+/// Penalty at the cone's edge, as a share of all sides; 0 at the ground's direction.
 constexpr double kGroundPull = 0.15;
-/// What it loses in the last steps, by the squared sine of its angle to the ground's direction.
+/// Penalty in the last steps, per squared sine of the angle to the ground's direction.
 constexpr double kFinePull = 0.005;
-constexpr double kOffGround = 30.0;  ///< Degrees from the ground's direction: no ground any more.
-constexpr double kUpright = 2.0;     ///< Degrees that upright surfaces may lean.
+constexpr double kOffGround = 30.0;  ///< Degrees from the ground's direction: beyond, not ground.
+constexpr double kUpright = 2.0;     ///< Largest lean of upright surfaces, degrees.
 
 // The decision.
-constexpr double kMeantAxis = 40.0;    ///< Degrees: so near to the ground's direction z is meant.
+constexpr double kMeantAxis = 40.0;    ///< Degrees: so near to the ground's normal, `usual` stays.
 constexpr double kLeastTilt = 8.0;     ///< Degrees
-constexpr double kSteepest = 30.0;     ///< Degrees, more than a vehicle's way is as a whole.
+constexpr double kSteepest = 30.0;     ///< Degrees: no vehicle's path is steeper as a whole.
 constexpr double kLeastShare = 0.12;   ///< Of surfaces that are not ground.
-constexpr double kLeastUpright = 4.0;  ///< Square metres a scan.
+constexpr double kLeastUpright = 4.0;  ///< Square metres per scan.
 constexpr double kTimesBetter = 1.5;
 
 double cosine(double degrees) {
@@ -140,13 +140,13 @@ Surfaces collect(const ScanSource& scans) {
   return surfaces;
 }
 
-/// Of a bump that is 1 at 0 and 0 from `reach` on.
+/// A smooth weight: 1 at 0 and 0 from `reach` on.
 double bump(double value, double reach) {
   const double share = 1.0 - value * value / (reach * reach);
   return share > 0.0 ? share * share : 0.0;
 }
 
-/// What lies below the sensor if up is `up`, and faces it.
+/// Weight of `surface` as ground if up is `up`: below the sensor and facing it.
 double ground_weight(const Surface& surface, const Vector3d& up) {
   const double below = -surface.from_sensor.dot(up);
   if (below < kLowest || below > kHighest || surface.from_sensor.norm() > kNear) return 0.0;
@@ -155,7 +155,7 @@ double ground_weight(const Surface& surface, const Vector3d& up) {
   return surface.weight * (along - cosine(kGroundSpread)) / (1.0 - cosine(kGroundSpread));
 }
 
-/// Mean direction that the ground faces if it faces about `up`. @param support square metres
+/// Mean normal of the ground if up is about `up`. @param support square metres
 Vector3d refined_ground(const Surfaces& surfaces, const Vector3d& up, double& support) {
   Vector3d sum = Vector3d::Zero();
   support = 0.0;
@@ -182,7 +182,7 @@ std::vector<Vector3d> directions_around(const Vector3d& axis, double cone, doubl
   return directions;
 }
 
-/// Zero if there is none. @param usual the direction that is up as a rule
+/// The normal of the ground; zero if there is none. @param usual the usual up direction
 Vector3d find_ground(const Surfaces& surfaces, const Vector3d& usual) {
   Vector3d best = Vector3d::Zero();
   double most = 0.0, area = 0.0;
@@ -206,7 +206,7 @@ struct Sides {
   std::vector<Surface> all;
   double area = 0.0;
 
-  /// Area of those that stand upright if up is `up`. @param reach degrees
+  /// Area of upright surfaces if up is `up`. @param reach degrees
   [[nodiscard]] double upright(const Vector3d& up, double reach) const {
     const double limit = sine(reach);
     double sum = 0.0;
@@ -214,10 +214,10 @@ struct Sides {
     return sum;
   }
 
-  /// The direction by which those that are about upright under `up` lean the least (squared sines).
+  /// The direction with the least lean (squared sines) of surfaces that are upright under `up`.
   [[nodiscard]] Vector3d least_leaning(const Vector3d& up, const Vector3d& ground) const {
     const double limit = sine(kUpright);
-    // What sides leave open, the ground decides.
+    // The ground decides directions that the sides do not constrain.
     Matrix3d moments = kFinePull * area * (Matrix3d::Identity() - ground * ground.transpose());
     for (const Surface& side : all) {
       const double weight = side.weight * bump(side.normal.dot(up), limit);
@@ -238,8 +238,8 @@ Sides sides_of(const Surfaces& surfaces, const Vector3d& ground) {
   return sides;
 }
 
-/// The direction that most sides are parallel to. The ground's direction breaks ties: sides that
-/// all face one way do not say how far up leans along them.
+/// The direction to which most sides are parallel. The ground's direction breaks ties: parallel
+/// sides do not determine the lean of up along them.
 Vector3d find_upright(const Sides& sides, const Vector3d& ground) {
   Vector3d best = ground;
   const auto search = [&](double cone, double step, double reach) {
@@ -260,8 +260,8 @@ Vector3d find_upright(const Sides& sides, const Vector3d& ground) {
   return best;
 }
 
-/// Area of what faces `up` below the sensor, at any distance, square metres. The origin of points
-/// that are not in the frame of their sensor may lie on the floor.
+/// Area of the surfaces below the sensor that face `up`, at any distance, square metres. Points in
+/// another frame than the sensor's may have their origin on the floor.
 double floor_area(const Surfaces& surfaces, const Vector3d& up) {
   double area = 0.0;
   for (const auto* some : {&surfaces.all, &surfaces.far}) {
@@ -275,7 +275,7 @@ double floor_area(const Surfaces& surfaces, const Vector3d& up) {
   return area;
 }
 
-/// The direction that the path lies across, if it extends in two others; else zero.
+/// The normal of the path if it extends in two directions; else zero.
 Vector3d normal_of_path(const ScanSource& scans) {
   Vector3d mean = Vector3d::Zero();
   Matrix3d squares = Matrix3d::Zero();
@@ -291,10 +291,9 @@ Vector3d normal_of_path(const ScanSource& scans) {
   return solver.eigenvectors().col(0);
 }
 
-/// Whether the scans show that `usual` is not up, but about `ground` is. Facades beside a drone and
-/// the ceiling above a robot look like ground, too. So the floor below must be missing, and there
-/// must be no second facade that faces the first; or the path tells, or only the other direction
-/// leads to an open sky.
+/// Whether up is about `ground` and not `usual`. Facades beside a drone and the ceiling above a
+/// robot look like ground, too. So one of these must hold: the floor below is missing and no second
+/// facade faces the first; the path shows it; or only the other direction has an open sky.
 bool is_contradicted(const Vector3d& usual, const Vector3d& ground, const Surfaces& surfaces,
                      const Vector3d& path) {
   const double floor = floor_area(surfaces, usual), other = floor_area(surfaces, ground);
@@ -303,7 +302,7 @@ bool is_contradicted(const Vector3d& usual, const Vector3d& ground, const Surfac
     if (std::abs(path.dot(usual)) > 0.8) return false;
     if (std::abs(path.dot(ground)) > 0.8) return floor < kMostFloorByPath * other;
   }
-  // What faces the floor and the ground: a ceiling, an opposite facade, hardly anything of a sky.
+  // Surfaces opposite the floor and the ground: a ceiling, a second facade, or almost none (sky).
   const double closed = std::min(1.0, floor_area(surfaces, -usual) / std::max(floor, 1.0));
   const double open = floor_area(surfaces, -ground) / std::max(other, 1.0);
   if (is_turned && closed > kMostCeiling && open < kMostSky * closed) return true;

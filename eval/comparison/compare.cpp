@@ -19,8 +19,8 @@ const ComparedCell* find_cell(const ResultSet& set, const ComparedCell& wanted) 
   return nullptr;
 }
 
-/// The cell of the run that goes with one of the reference: the cell of its name, else the same
-/// method with a parameter changed, whose name has a '*' more or less.
+/// The cell of the run for a cell of the reference: the cell of the same name, else the same method
+/// with a changed parameter, whose name has a '*' more or less.
 const ComparedCell* partner_of(const ResultSet& run, const ResultSet& reference,
                                const ComparedCell& wanted) {
   if (const ComparedCell* same = find_cell(run, wanted)) return same;
@@ -47,7 +47,7 @@ std::string title(const ComparedCell& cell) {
 }
 
 /// The facts of `run` and `reference` that differ, as name and text.
-/// @param common_only facts that one of them lacks are left out
+/// @param common_only leaves out facts that one of them lacks
 std::vector<std::pair<std::string, std::string>> fact_differences(const Facts& run,
                                                                   const Facts& reference,
                                                                   bool common_only) {
@@ -73,7 +73,7 @@ bool is_parameter(std::string_view fact) {
   return fact.starts_with("parameter ");
 }
 
-/// Compares cell after cell and collects what it finds.
+/// Compares cell by cell and collects the differences.
 class Comparer {
  public:
   explicit Comparer(const ComparisonOptions& options) : options_(options) {}
@@ -120,7 +120,7 @@ class Comparer {
              "--with-times, or leave --time-band out");
   }
 
-  /// Adds a sentence to its list. `of` says which cell and protocol the sentence is about, if any.
+  /// Adds a sentence to its list. `of` has the cell and protocol of the sentence, if any.
   void add_line(Change change, const ScoreComparison& of, const std::string& text) {
     std::vector<std::string>& list = change == Change::kIncomparable ? result_.incomparable
                                      : change == Change::kWorse      ? result_.worse
@@ -170,7 +170,7 @@ class Comparer {
   }
 
   /// Whether two cells are of the same data and, unless they may differ, of the same parameters.
-  /// @param across gets what differs and may
+  /// @param across gets the allowed differences
   bool may_be_compared(const ComparedCell& run, const ComparedCell& reference, bool common_only,
                        std::vector<std::string>& across) {
     std::vector<std::string> wrong;

@@ -46,8 +46,8 @@ struct ResultSet {
 };
 
 struct ComparisonOptions {
-  /// Rates, each with how much worse it may get, in its own unit (PR in percent, F1 a fraction). If
-  /// a protocol has any of them, these rates decide instead of all counts.
+  /// Tolerances by rate, in the unit of the rate (PR in percent, F1 a fraction). If a protocol has
+  /// any of these rates, they decide instead of all counts.
   std::map<std::string, double> tolerances;
   /// A run that is slower than the reference by more than this factor is worse. Without the factor
   /// times are shown and decide nothing.
@@ -71,7 +71,7 @@ const char* change_name(Change change);
 struct RateChange {
   std::string name;
   std::optional<double> before, after;  ///< Nothing if it is undefined.
-  std::optional<double> tolerance;      ///< How much worse it may get; nothing: it decides nothing.
+  std::optional<double> tolerance;      ///< Empty: the rate decides nothing.
   /// kMoved if it decides nothing, or if it is not known which direction is better.
   Change change = Change::kSame;
 };
@@ -82,7 +82,7 @@ struct CountChange {
   std::optional<std::int64_t> before, after;
 };
 
-/// A cell of the reference (or one that only the run has) as one protocol sees it.
+/// The comparison of one cell by one protocol; the cell may be missing in the reference.
 struct ScoreComparison {
   std::string sequence;
   std::string name;
@@ -107,7 +107,7 @@ struct TimeChange {
   /// Whether as many cells ran at once on both sides. Else nothing follows from the ratio.
   [[nodiscard]] bool taken_alike() const { return before_side_by_side == after_side_by_side; }
 
-  /// How many times slower the run is; only where both sides have a time.
+  /// Time of the run divided by the reference's; only if both sides have a time.
   [[nodiscard]] double ratio() const { return *after / *before; }
 };
 

@@ -13,7 +13,7 @@ std::string value_words(const std::optional<double>& value) {
   return value ? fixed_text(*value, 4) : "undefined";
 }
 
-/// The names, or the first few and how many more there are.
+/// The names, or the first few and the number of the others.
 std::string few_names(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 5;
   if (names.size() <= kMost + 1) return join(names);
@@ -41,7 +41,7 @@ struct CommonLine {
   }
 };
 
-/// Puts together first the methods of each sequence, then sequences with the same methods.
+/// Combines first the methods of each sequence, then sequences with the same methods.
 std::vector<CommonLine> lines_in_common(const std::vector<ComparisonLine>& lines, Change change) {
   std::vector<CommonLine> by_sequence;
   for (const ComparisonLine& line : lines) {

@@ -29,13 +29,13 @@ const Rate* find_rate(const std::vector<Rate>& rates, const std::string& name) {
   return nullptr;
 }
 
-/// How a score changed, besides what its `ScoreComparison` holds.
+/// Facts on a changed score that are not in its `ScoreComparison`.
 struct ScoreMovement {
   bool by_rates = false;  ///< Rates decide, and counts may differ.
   bool rate_improved = false;
   bool rate_worsened = false;  ///< Or it is defined on one side only.
   bool beyond_tolerance = false;
-  bool truth_changed = false;  ///< A count that no mask can change is another one.
+  bool truth_changed = false;  ///< A count that no mask can change has changed.
 };
 
 bool has_tolerance(const ComparedScore& reference, const ComparisonOptions& options) {
@@ -43,8 +43,8 @@ bool has_tolerance(const ComparedScore& reference, const ComparisonOptions& opti
                      [&](const Rate& rate) { return options.tolerances.contains(rate.name); });
 }
 
-/// By how much a rate may get worse; nothing if it decides nothing. Across parameters all rates
-/// decide if the protocol has no rate with a tolerance.
+/// The tolerance of a rate; empty if the rate decides nothing. Across parameters, all rates decide
+/// if the protocol has no rate with a tolerance.
 std::optional<double> tolerance_of(const std::string& rate, const ComparedScore& reference,
                                    const ComparisonOptions& options, bool across) {
   const auto given = options.tolerances.find(rate);
@@ -62,7 +62,7 @@ void classify_rate_change(RateChange& rate, ScoreMovement& movement) {
   rate.change = Change::kMoved;
   const RateSpec* spec = find_rate_spec(rate.name);
   if (spec == nullptr) return;
-  // If the rate is defined on one side only, nothing says that it is no worse.
+  // A rate that is defined on one side only may be worse.
   const bool defined = rate.before && rate.after;
   const bool improved = defined && spec->is_better(*rate.after, *rate.before);
   (improved ? movement.rate_improved : movement.rate_worsened) = true;
@@ -92,7 +92,7 @@ std::vector<CountChange> changed_counts(const ComparedScore& run, const Compared
 }
 
 Change change_of(const ComparedCell& cell, const ScoreMovement& movement) {
-  // What a control answers is known beforehand: any change is one of the program.
+  // The mask of a control is known: any change is a fault of the program.
   if (movement.truth_changed || cell.control) return Change::kWorse;
   if (movement.by_rates ? movement.beyond_tolerance : movement.rate_worsened) return Change::kWorse;
   if (movement.rate_improved && !movement.rate_worsened) return Change::kBetter;

@@ -11,10 +11,10 @@ namespace raymoval {
 /// and decide nothing.
 bool has_known_direction(const std::string& rate);
 
-/// Compares what one protocol says of one cell on both sides, which are comparable.
+/// Compares the scores of one cell by one protocol on both sides, which are comparable.
 /// @param cell of the run
 /// @param score has its cell, protocol and what differs across; gets rates, counts and the change
-/// @return what changed, in words; empty if nothing did
+/// @return the changes in words; empty if there are none
 std::string compare_scores(const ComparedCell& cell, const ComparedScore& run,
                            const ComparedScore& reference, const ComparisonOptions& options,
                            ScoreComparison& score);

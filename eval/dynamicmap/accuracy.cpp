@@ -6,8 +6,8 @@
 namespace raymoval::dynamicmap {
 
 std::vector<RateSpec> accuracy_rate_list() {
-  // The oracle keeps every static point, so all of them are found again. How many dynamic points
-  // near static ones it loses depends on the data.
+  // The oracle keeps every static point, so SA is 100. Its loss of dynamic points near static
+  // points depends on the data.
   return {{.name = "SA",
            .role = RateRole::kKept,
            .nothing_removed = 100.0,

@@ -17,7 +17,7 @@ std::vector<CountSpec> point_count_list() {
           {"ego_points", true},       {"out_of_range_points", true}, {"ignored_points", true}};
 }
 
-/// What the rates are made of.
+/// The counts of the rates.
 std::vector<std::int64_t> counts_of(const ScanPresence& presence) {
   return {presence.present_static, presence.points.static_points, presence.removed_dynamic,
           presence.points.dynamic_points};

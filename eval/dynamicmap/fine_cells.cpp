@@ -9,7 +9,8 @@ namespace {
 
 /// The smallest edge of a block, metres.
 constexpr double kSmallestEdge = 0.2;
-/// What fine cells are larger than half of the distance by. Rounding is a thousand times smaller.
+/// Relative margin of a fine cell's edge over half of the distance. Rounding is a thousand times
+/// smaller.
 constexpr double kMargin = 1e-6;
 
 double block_edge(double distance) {
@@ -34,7 +35,7 @@ std::uint64_t layer_mask(const Span& x, const Span& y) {
   return mask;
 }
 
-/// Blocks, from -1 to 1, into which the reach around a cell goes along an axis.
+/// First and last block, from -1 to 1, within reach of a cell along an axis.
 int first_block(int centre) {
   return centre < FineGrid::kReach ? -1 : 0;
 }

@@ -24,7 +24,7 @@ MarkedCells::MarkedCells(const CellLattice& blocks, std::size_t room)
     : blocks_(blocks), room_(room), has_flagged_(blocks.size()) {}
 
 bool MarkedCells::begin_next() {
-  kept_ = {};  // Both give their memory back before more is asked for.
+  kept_ = {};  // Both free their memory before more is allocated.
   flagged_ = {};
   first_ = end_;
   end_ = static_cast<Number>(blocks_.size());

@@ -13,14 +13,14 @@
 namespace raymoval::dynamicmap {
 namespace {
 
-/// From here on the marks may take more than what reading scans once more is worth.
+/// From this number on, waiting is worth an extra pass, because marks need much memory.
 constexpr std::size_t kManyBlocks = 4'000'000;
 
 Eigen::Vector3d placed(const Scan& scan, std::size_t point) {
   return scan.T_world_sensor * scan.points[point].cast<double>();
 }
 
-/// What the masks say of a scan themselves; calls `visit(scan, point, kind, removed)` on the way.
+/// Counts of a scan from its mask; calls `visit(scan, point, kind, removed)` for each point.
 template <class Visit>
 ScanPresence count_by_index(const TruthPoints& truth, const CheckedScan& loaded, Visit&& visit) {
   ScanPresence counts;
@@ -35,7 +35,7 @@ ScanPresence count_by_index(const TruthPoints& truth, const CheckedScan& loaded,
   return counts;
 }
 
-/// A flagged point that is there all the same.
+/// Counts a flagged point that is present.
 void add_present(ScanPresence& counts, bool moving) {
   if (moving) {
     --counts.removed_dynamic;
@@ -163,7 +163,7 @@ class MarkedPresence : public PresenceCount {
   [[nodiscard]] std::vector<ScanPresence> finish() override { return std::move(scans_); }
 
  private:
-  /// What a pass does. The last three come again for each range of marks.
+  /// The steps of the passes. The last three are repeated for each range of marks.
   enum Step { kStart, kCount, kMark, kCollect, kCollectMore };
   struct Part {
     std::uint32_t scan = 0;
@@ -198,7 +198,7 @@ class MarkedPresence : public PresenceCount {
     return block;
   }
 
-  /// Where the blocks are that are wanted. Most points of a scan are elsewhere.
+  /// The places of the wanted blocks. Most points of a scan are elsewhere.
   template <class IsWanted>
   [[nodiscard]] CoarseCells places_where(IsWanted&& is_wanted) const {
     return {input_.grid.blocks_a_metre(), [&](const auto& visit) {
@@ -208,7 +208,7 @@ class MarkedPresence : public PresenceCount {
             }};
   }
 
-  /// Counts what the mask says itself, and finds the blocks of flagged points.
+  /// Counts the points of the mask, and finds the blocks of flagged points.
   void count(const CheckedScan& loaded, Part& part) {
     ScanPresence& counts = part.counts;
     counts = {};
@@ -231,7 +231,7 @@ class MarkedPresence : public PresenceCount {
     part.any_kept = kept > 0;
   }
 
-  /// Marks the cells of flagged points, and those of kept ones where flagged ones may be near.
+  /// Marks the cells of flagged points, and of kept points that may be near flagged points.
   void mark(const CheckedScan& loaded, const Part& part) {
     const auto may_matter = [&](CellLattice::Number block, bool removed) {
       return removed ? marks_.has_turn(block) : marks_.is_near_flagged(block);
@@ -241,8 +241,8 @@ class MarkedPresence : public PresenceCount {
     visit_where(loaded, part, may_matter, set);
   }
 
-  /// Counts the flagged points that the marks decide on, and collects the others and what may be
-  /// near them.
+  /// Counts the flagged points that the marks decide, and collects the others and kept points that
+  /// may be near them.
   void collect(const CheckedScan& loaded, Part& part) {
     part.counts = {};
     part.found = {};
@@ -269,8 +269,8 @@ class MarkedPresence : public PresenceCount {
   }
 
   /// Calls `visit(point, block, kind, removed)` for the points of the estimate in `places_` and for
-  /// flagged ones where `may_matter(block, removed)`. Where a point is, is found out before what it
-  /// is: most points are where nothing was flagged.
+  /// flagged points if `may_matter(block, removed)`. The block of a point is found before its kind,
+  /// because most points are in blocks without flagged points.
   template <class MayMatter, class Visit>
   void visit_where(const CheckedScan& loaded, const Part& part, MayMatter&& may_matter,
                    Visit&& visit) const {
@@ -293,7 +293,7 @@ class MarkedPresence : public PresenceCount {
     }
   }
 
-  /// Whether a point stands in the map that is scored; its label is not looked at.
+  /// Whether a point is in the scored map, for any label.
   [[nodiscard]] bool in_estimate(Kind kind, bool removed) const {
     return !removed && (is_truth(kind) || input_.options.ignored_in_estimate);
   }
@@ -309,8 +309,8 @@ class MarkedPresence : public PresenceCount {
   std::vector<Part> slots_;
   std::vector<ScanPresence> scans_;
   bool any_flagged_ = false, any_kept_ = false;
-  CoarseCells places_;  ///< Where points that are left may matter in this pass.
-  MarkedCells marks_;   ///< When points are collected, flagged ones that are undecided.
+  CoarseCells places_;  ///< Places of kept points that may matter in this pass.
+  MarkedCells marks_;   ///< While points are collected: undecided flagged points.
   UndecidedPoints undecided_;
 };
 

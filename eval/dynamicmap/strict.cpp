@@ -133,7 +133,7 @@ class StrictScorer : public Scorer {
   double voxel_size_;
   TruthPoints points_;
   PointCounts point_counts_;
-  VoxelMap<std::uint32_t> positions_;  ///< Where each cell of the truth stands in `classes_`.
+  VoxelMap<std::uint32_t> positions_;  ///< Position of each cell of the truth in `classes_`.
   std::vector<std::uint8_t> classes_;  ///< kStatic, kDynamic or both.
 };
 

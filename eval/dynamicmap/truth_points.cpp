@@ -30,8 +30,8 @@ TruthPoints::TruthPoints(const EvaluationInput& input, double maximum_range, dou
       classes_(input.label_rule),
       maximum_range_(maximum_range > 0.0 ? maximum_range : std::numeric_limits<double>::infinity()),
       ego_range_(ego_range) {
-  // Where 0 and 1 are the classes themselves, as in the benchmark's own files, the rule for the ego
-  // vehicle would destroy the truth.
+  // If 0 and 1 are the classes, as in the benchmark's files, the rule for the ego vehicle would
+  // destroy the truth.
   if (classes_.moving(0) || classes_.moving(1)) ego_range_ = 0.0;
 }
 

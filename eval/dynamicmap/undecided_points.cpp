@@ -10,7 +10,7 @@
 namespace raymoval::dynamicmap {
 namespace {
 
-/// What a kept point takes in the tree that is searched.
+/// Memory of a kept point in the search tree.
 constexpr std::size_t kTreeBytes = 16;
 constexpr std::size_t kGrain = 4096;
 

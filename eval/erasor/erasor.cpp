@@ -21,13 +21,13 @@
 namespace raymoval::erasor {
 namespace {
 
-/// What the names of counts and rates end with where trucks are counted as static.
+/// Suffix of the names of counts and rates with trucks counted as static.
 constexpr const char* kNoTruck = "_no_truck";
 
 /// PR, RR and F1, then the same with trucks counted as static.
 std::vector<RateSpec> rate_list() {
   const RateFormula f1{"PR", "RR", "harmonic_mean", f1_from_percent, true};
-  // How many static voxels the oracle loses beside moving ones depends on the data.
+  // The oracle's loss of static voxels beside moving voxels depends on the data.
   std::vector<RateSpec> rates = {
       {.name = "PR", .role = RateRole::kKept, .nothing_removed = 100.0, .everything_removed = 0.0},
       {.name = "RR",
@@ -70,7 +70,7 @@ std::vector<CountSpec> count_list() {
   return counts;
 }
 
-/// PR, RR and F1 of `counts`. @param suffix stands behind their names
+/// PR, RR and F1 of `counts`. @param suffix of their names
 std::vector<Rate> rates_of(const MatchCounts& counts, const std::string& suffix = "") {
   const Rate preservation =
       percent_rate("PR" + suffix, counts.preserved_static, counts.static_voxels,
@@ -181,7 +181,7 @@ class ErasorScorer : public Scorer {
     return result_of(relabelled(map), map.points(), ties);
   }
 
-  /// A map whose labels are taken again from the nearest point of the dense map.
+  /// A map with labels from the nearest point of the dense map.
   [[nodiscard]] ListedVoxels relabelled(const EstimateMap& map) const {
     LabelledVoxels voxels;
     map.cells().for_each([&](CellLattice::Number number, VoxelKey cell) {
@@ -193,8 +193,8 @@ class ErasorScorer : public Scorer {
     return {voxels, classes_};
   }
 
-  /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. Points
-  /// of ignored labels stand in that map too, and what lies nearest to one is ignored likewise.
+  /// The voxelised cloud, each voxel with the label of its nearest point in the dense map. That map
+  /// includes points of ignored labels; a voxel nearest to such a point is ignored too.
   [[nodiscard]] LabelledVoxels cloud_map(const std::vector<Eigen::Vector3f>& points) const {
     LabelledCloud cloud;
     for (const Eigen::Vector3f& point : points) cloud.points.push_back(point.cast<double>());
@@ -216,7 +216,7 @@ class ErasorScorer : public Scorer {
     return map;
   }
 
-  /// @param points what became of the points that the estimate was made of
+  /// @param points counts of the points of the estimate
   /// @param ties mixed-label ties of the estimate
   [[nodiscard]] ProtocolResult result_of(const MapVoxels& estimate, const PointCounts& points,
                                          std::int64_t ties) const {
@@ -250,8 +250,8 @@ class ErasorScorer : public Scorer {
                           {"cropped_points", points.cropped}});
   }
 
-  /// The same voxels with trucks counted as static. Labels travel by point and not by class, so
-  /// the maps and the partners stay as they are.
+  /// The same voxels with trucks counted as static. Voxels store labels, not classes, so the maps
+  /// and the partners do not change.
   void add_no_truck(const std::vector<VoxelKind>& partners, CountingRule rule,
                     ProtocolResult& result) const {
     if (truth_.points().trucks == 0 || !classes_.moving(kMovingTruck)) return;
@@ -273,7 +273,7 @@ class ErasorScorer : public Scorer {
   Options options_;
   LabelClasses classes_;
   TruthMap truth_;
-  /// The dense map, searchable; it is only kept if the estimate's labels are taken from it.
+  /// The searchable dense map; only kept if it gives the labels of the estimate.
   std::unique_ptr<NearestLabels> dense_;
 };
 
@@ -291,8 +291,8 @@ bool frame_needs_calibration(const Configuration& options) {
   return erasor::option_table().read(options).frame == erasor::FrameOption::kErasor;
 }
 
-/// Labels that are found again by nearest neighbour, or not looked at, let a static point stand in
-/// for a removed one.
+/// Whether labels are assigned by nearest neighbour or ignored. Then a static point may replace a
+/// removed point.
 bool labels_are_uncertain(const Configuration& configuration) {
   const erasor::Options options = erasor::option_table().read(configuration);
   return options.label_mode == erasor::LabelMode::kNearest ||

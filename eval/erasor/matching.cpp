@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kGrain = 1024;  ///< Bricks.
 
-/// The best partner that was met so far.
+/// The best partner found up to now.
 struct Partner {
   double squared;
   CellLattice::Number number = CellLattice::kNone;

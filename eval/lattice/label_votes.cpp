@@ -20,7 +20,7 @@ void LabelVotes::offer(std::size_t voxel, double distance, const Label& label, b
     return;
   }
   if (moves != last.moves) {
-    // All points of the class that is the other one now are as far away as the last, or farther.
+    // All points of the new other class are at least as far away as the last.
     if (last.distance <= distance + kLabelTieMargin) {
       other_class_[voxel] = last.distance;
     } else if (!other_class_.empty()) {
@@ -30,7 +30,7 @@ void LabelVotes::offer(std::size_t voxel, double distance, const Label& label, b
   take_lead(voxel, {distance, label.scan, label.id, moves});
 }
 
-/// Takes in a candidate that is nearer than all before it.
+/// Stores a candidate that is nearer than all earlier candidates.
 void LabelVotes::take_lead(std::size_t voxel, const Candidate& candidate) {
   Candidate& holder = holders_[voxel];
   const double reach = candidate.distance + kLabelTieMargin;

@@ -17,7 +17,7 @@ std::size_t MeanTable::finish() {
   std::size_t filled = 0;
   double* const numbers = numbers_.get();
   for (std::size_t cell = 0; cell < points_.size(); ++cell) {
-    // A mean is never written beyond the sums that it is made of.
+    // A mean is never written beyond its own sums.
     const double* const first = numbers + 6 * cell;
     const Eigen::Map<const Eigen::Vector3d> sum(first + 3);
     const Eigen::Vector3d mean =
@@ -25,7 +25,7 @@ std::size_t MeanTable::finish() {
     Eigen::Map<Eigen::Vector3d>(numbers + 3 * cell) = mean;
     filled += points_[cell] > 0 ? 1 : 0;
   }
-  // Smaller memory stays where it is, so it is never there twice.
+  // Shrinking does not move the memory, so it is never there twice.
   void* const means =
       std::realloc(numbers, std::max<std::size_t>(points_.size(), 1) * 3 * sizeof(double));
   if (means != nullptr) {

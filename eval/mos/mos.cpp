@@ -30,7 +30,7 @@ const ParameterTable<Options>& option_table() {
   return table;
 }
 
-/// The points of a scan by what they are, and by what the answer says of them.
+/// The points of a scan by class and by mask.
 struct Confusion {
   std::int64_t static_points = 0, dynamic_points = 0;
   std::int64_t kept_static = 0, flagged_dynamic = 0;
@@ -47,7 +47,7 @@ struct Confusion {
   }
 };
 
-/// What the rates are made of, and what it is called.
+/// The counts of the rates, and their names.
 constexpr const char* kCounts[] = {"flagged_dynamic_points", "dynamic_points", "kept_static_points",
                                    "static_points"};
 std::vector<std::int64_t> counts_of(const Confusion& points) {

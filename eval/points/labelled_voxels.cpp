@@ -21,7 +21,7 @@ struct CellPoint {
   std::uint32_t point;
 };
 
-/// The input points by cell: those of cell i are order[first[i]] .. order[first[i + 1] - 1].
+/// The input points by cell: the points of cell i are order[first[i]] .. order[first[i + 1] - 1].
 struct Cells {
   std::vector<VoxelKey> keys;
   std::vector<std::size_t> first;

@@ -27,7 +27,7 @@ struct FirstInReach {
   void sort() const {}  // nanoflann 1.5 and later calls it.
 };
 
-/// Collects what a search meets; the search prunes whatever lies beyond `worstDist`.
+/// Collects the points of a search; the search prunes points beyond `worstDist`.
 struct VoteCollector {
   using DistanceType = double;
   LabelVote& vote;

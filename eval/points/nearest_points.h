@@ -12,8 +12,8 @@
 
 namespace raymoval {
 
-/// Picks the point that hands its label to a query: the nearest one, or the lowest index among
-/// those within `kLabelTieMargin` of the nearest. Points may be offered in any order.
+/// Selects the point that gives its label to a query: the point with the lowest index among points
+/// within `kLabelTieMargin` of the nearest. Points may be offered in any order.
 class LabelVote {
  public:
   void clear() {

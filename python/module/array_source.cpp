@@ -28,7 +28,7 @@ class ArrayList : public PointStore {
   std::vector<PointArray> arrays_;
 };
 
-/// A sequence in Python that makes its arrays when they are asked for.
+/// A sequence in Python that makes its arrays on request.
 class PythonSequence : public PointStore {
  public:
   PythonSequence(const py::object& sequence, std::size_t size)

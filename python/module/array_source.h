@@ -23,14 +23,12 @@ class PointStore {
   [[nodiscard]] virtual Cloud points(std::size_t scan) const = 0;
 };
 
-/// Points of a list, a tuple or an array of arrays are looked at where they are. Those of another
-/// sequence are asked for scan by scan, by one thread at a time. What can only be gone through once
-/// (a generator) is written to a file without a name below TMPDIR, so that memory does not grow
-/// with the scans.
-/// @param most the number of scans that there are poses for: no more are taken from a generator
-///   than that and one
-/// @throws UsageError for what holds no scans, and for wrong shapes and types where they are known;
-///   DataError if the file cannot be written; what the iterator raises
+/// The points of a list, a tuple or an array of arrays are used in place. The points of another
+/// sequence are requested scan by scan, by one thread at a time. An iterator (a generator) is
+/// written to an unnamed file below TMPDIR, so that memory does not grow with the scans.
+/// @param most the number of poses: at most one scan more is taken from a generator
+/// @throws UsageError for an object without scans, and for wrong shapes and types if they are known
+///   yet; DataError if the file cannot be written; errors of the iterator
 /// @note To be called with the GIL.
 std::shared_ptr<const PointStore> point_store(const py::object& scans, std::size_t most);
 
@@ -40,7 +38,7 @@ class ArraySource : public ScanSource {
   struct Facts {
     std::vector<Pose> poses;
     std::vector<double> times;               ///< Seconds; as many as poses.
-    std::optional<SensorModel> sensor = {};  ///< Stands above `sensor_name`.
+    std::optional<SensorModel> sensor = {};  ///< Takes precedence over `sensor_name`.
     std::optional<std::string> sensor_name = {};
   };
   /// @throws UsageError if there are more or fewer poses than scans, or neither; ConfigurationError

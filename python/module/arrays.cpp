@@ -10,7 +10,7 @@
 namespace raymoval::python {
 namespace {
 
-/// @throws UsageError for what numpy.asarray makes no array of
+/// @throws UsageError if numpy.asarray fails
 py::array as_array(const py::handle& value, const std::string& where, const char* expected) {
   if (py::isinstance<py::array>(value)) return py::reinterpret_borrow<py::array>(value);
   const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
@@ -31,7 +31,7 @@ std::string type_text(const py::array& array) {
   return py::str(array.dtype());
 }
 
-/// Numbers of `array` as they are, or, with the bytes swapped, as NumPy makes them.
+/// Whether `array` has numbers of this type. NumPy converts arrays with swapped bytes.
 template <class Number>
 bool holds(const py::array& array) {
   return py::isinstance<py::array_t<Number>>(array);

@@ -26,7 +26,7 @@ class PointArray {
   PointArray(const py::handle& value, const std::string& where);
 
   [[nodiscard]] std::size_t rows() const { return rows_; }
-  /// A copy in float32, with what is not finite as it is.
+  /// A copy in float32; numbers that are not finite are kept.
   [[nodiscard]] Cloud cloud() const;
 
  private:

@@ -7,8 +7,8 @@ namespace raymoval::python {
 
 namespace py = pybind11;
 
-// Each function adds a part of the module `_raymoval`, from a source file of its own name. What
-// people call stands in the package `raymoval`, in Python, which calls these.
+// Each function adds a part of the module `_raymoval`, from the source file of its name. The public
+// API is in the Python package `raymoval`, which calls these.
 
 void bind_errors(py::module_& module);
 void bind_sensors(py::module_& module);

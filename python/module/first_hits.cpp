@@ -24,7 +24,7 @@ using raymoval_method::FirstHitImage;
 using raymoval_method::OccupancyMap;
 using raymoval_method::RayLimits;
 
-/// A map that threads may share. Whoever waits for the mutex has let go of the GIL.
+/// A map that threads may share. A thread releases the GIL before it waits for the mutex.
 struct HeldMap {
   explicit HeldMap(double voxel_size) : map(voxel_size) {}
   OccupancyMap map;

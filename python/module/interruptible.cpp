@@ -12,7 +12,7 @@
 
 namespace raymoval::python {
 
-/// A work, and whoever waits for it.
+/// A running task, and the state of the thread that waits for it.
 struct Call {
   std::atomic<bool> cancel = false;
   Progress progress;
@@ -20,7 +20,7 @@ struct Call {
   /// with the GIL.
   unsigned long python_thread = 0;
 
-  std::mutex mutex;  ///< Of what follows.
+  std::mutex mutex;  ///< Of the members below.
   std::condition_variable changed;
   bool is_done = false;
   std::exception_ptr error = nullptr;
@@ -73,7 +73,7 @@ bool wait_for(Call& call) {
   return call.changed.wait_for(lock, kBetweenLooks, [&] { return call.is_done; });
 }
 
-/// Asks the work to stop, also where it is in Python code.
+/// Requests the work to stop, also if it is in Python code.
 void stop(Call& call) {
   call.cancel = true;
   if (call.python_thread != 0) {
@@ -81,7 +81,7 @@ void stop(Call& call) {
   }
 }
 
-/// What goes on while a work is waited for.
+/// Handles signals and progress while a thread waits for the work.
 class Watch {
  public:
   Watch(Call& call, const py::object& on_progress)
@@ -141,7 +141,7 @@ void run_interruptibly(const py::object& on_progress,
     while (!wait_for(call)) watch.look();
     thread.join();
   }
-  // A Ctrl-C that came just before the end was meant for this call.
+  // A Ctrl-C just before the end belongs to this call.
   if (call.error) watch.look();
   watch.rethrow();
   watch.tell_progress();

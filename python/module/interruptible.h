@@ -18,17 +18,17 @@ struct WorkContext {
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// Does `work` without the GIL, on a thread of its own, and waits for it. Meanwhile the calling
-/// thread looks after signals twenty times a second, so that Ctrl-C cancels the work (it throws
-/// Cancelled at its next scan, and the call raises KeyboardInterrupt), and tells `on_progress` how
-/// far it is.
+/// Runs `work` without the GIL, on a separate thread, and waits for it. Meanwhile the calling
+/// thread checks signals twenty times a second, so that Ctrl-C cancels the work (it throws
+/// Cancelled at its next scan, and the call raises KeyboardInterrupt), and reports progress to
+/// `on_progress`.
 ///
 /// Python code that the work calls (a method, a sequence of scans) runs on the work's thread. If
-/// that code is at work on Ctrl-C, KeyboardInterrupt is raised there too.
+/// that code is running at Ctrl-C, KeyboardInterrupt is raised there too.
 /// @param on_progress called as on_progress(context, task, number of the task, done, total) when
-///   something has changed; None: nobody is told
-/// @throws what `work` throws; what a signal's handler or `on_progress` raises
-/// @note To be called with the GIL. What `work` refers to outlives the call.
+///   the state has changed; None: no reports
+/// @throws errors of `work`, of signal handlers and of `on_progress`
+/// @note To be called with the GIL. Objects that `work` refers to outlive the call.
 void run_interruptibly(const py::object& on_progress,
                        const std::function<void(const WorkContext&)>& work);
 

@@ -6,10 +6,10 @@
 
 namespace raymoval::python {
 
-/// An answer as Python sees it: a mask for each scan, made when it is asked for.
+/// An answer for Python: a mask for each scan, made on request.
 struct HeldMasks {
-  MaskStore masks;     ///< Of the points that the method saw.
-  MaskStore left_out;  ///< Of arrays: the rows that no method sees. Empty otherwise.
+  MaskStore masks;     ///< Of the points that the method got.
+  MaskStore left_out;  ///< Of arrays: the rows that no method gets. Empty otherwise.
 
   /// As long as the array of the scan has rows; rows without a return are not removed.
   [[nodiscard]] Mask mask(std::size_t scan) const;

@@ -135,7 +135,7 @@ std::string exception_text(const py::error_already_set& error) {
   return text.empty() ? name : name + ": " + text;
 }
 
-/// Whether an exception is there because the run was asked to stop.
+/// Whether an exception means that the run was cancelled.
 bool says_cancelled(const py::error_already_set& error) {
   return error.matches(PyExc_KeyboardInterrupt) ||
          error.matches(py::module_::import("raymoval._raymoval").attr("Cancelled"));

@@ -12,8 +12,8 @@ namespace raymoval::python {
 /// @param object with the GIL
 std::unique_ptr<Remover> python_remover(const py::object& object);
 
-/// The entry of a method in Python. What it raises becomes a MethodError with the words of the
-/// exception and its place.
+/// The entry of a method in Python. Its exceptions become a MethodError with the message and place
+/// of the exception.
 /// @param described a dict with name, sentence, version, online, parameters (a dict of values), and
 ///   make: called with the values of the parameters, it gives the object
 /// @throws UsageError for a parameter that is no bool, number or text

@@ -16,7 +16,7 @@
 namespace raymoval::python {
 namespace {
 
-/// What `raymoval.run` asks for.
+/// The arguments of `raymoval.run`.
 struct RunRequest {
   std::vector<py::object> sequences;  ///< Sequences that were opened.
   py::list methods;                   ///< Names, and dicts for `python_entry`.

@@ -154,7 +154,7 @@ HeldSequence from_arrays(const py::object& scans, const py::object& poses, const
   return made;
 }
 
-/// Reads all scans for their times, which not every source tells otherwise.
+/// Reads all scans for their times, because not every source has the times separately.
 py::array_t<double> times_of(const HeldSequence& held, const py::object& on_progress) {
   const ScanSource& scans = *held.sequence->scans;
   std::vector<double> times(scans.size());

@@ -33,12 +33,12 @@ class Remover:
     sees no labels. It works in a frame of the harness: the first scan is at the origin, z is up.
     """
 
-    #: Name in tables; that of the class, in small letters, without.
+    #: Name in tables; by default the name of the class in small letters.
     name: Optional[str] = None
-    #: Raise it whenever answers may change. Without, it is made of the code of the class and of
-    #: those that it derives from, and of what they and the object hold, so that a changed method is
-    #: run again. Functions, classes and numbers elsewhere that this code uses do not count, and
-    #: another version of Python makes another one.
+    #: Change it whenever answers may change. By default it is derived from the code of the class
+    #: and of its base classes, and from their attributes and the object's, so that a changed method
+    #: is run again. It does not depend on functions, classes and numbers elsewhere that this code
+    #: uses. It depends on the version of Python.
     version: Optional[str] = None
     #: Whether the answer for a scan comes from it and earlier ones only.
     online: bool = False
@@ -133,7 +133,7 @@ class Variant:
     name: str
     sentence: str
     online: bool
-    values: dict[str, Value]  #: Those that differ from the method's defaults.
+    values: dict[str, Value]  #: Values that differ from the method's defaults.
 
 
 @dataclass(frozen=True)

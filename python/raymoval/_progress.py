@@ -12,7 +12,7 @@ from typing import Any, Optional, Union
 class ProgressState:
     """How far a task is."""
 
-    context: str  #: What it is part of, such as "[2/10] octomap:ground on town"; may be empty.
+    context: str  #: The larger task, such as "[2/10] octomap:ground on town"; may be empty.
     task: str
     done: int  #: Steps.
     total: int  #: Steps; 0 when the task has ended.

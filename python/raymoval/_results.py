@@ -106,9 +106,9 @@ class Run:
     cells: int
     reused: int  #: Cells that were there already.
     failures: list[str]  #: "sequence / method: reason".
-    control_problems: list[str]  #: What is wrong with the controls; empty if all is well.
+    control_problems: list[str]  #: Controls without their expected scores; empty if there are none.
     warnings: list[str]
-    #: A folder for temporary files, which goes with this object; None if the caller named one.
+    #: A temporary folder, which is removed with this object; None if the caller named a folder.
     temporary: Optional[_TemporaryFolder] = field(repr=False, default=None)
 
     @property

@@ -11,11 +11,11 @@ from typing import Any, Iterable, Optional
 from raymoval import _raymoval
 
 _SIMPLE = (type(None), bool, int, float, complex, str, bytes, type(Ellipsis))
-#: What a code object does; where it stands in its file does not count.
+#: The behaviour of a code object, without its place in the file.
 _OF_CODE = ("co_code", "co_consts", "co_names", "co_varnames", "co_freevars", "co_cellvars",
             "co_argcount", "co_posonlyargcount", "co_kwonlyargcount", "co_flags",
             "co_exceptiontable")
-#: These belong to a module or a class that is no Python, and are told by their names.
+#: Parts of a module, or of a class that is not written in Python: identified by name.
 _BY_NAME = (types.ModuleType, types.WrapperDescriptorType, types.MethodDescriptorType,
             types.ClassMethodDescriptorType, types.GetSetDescriptorType,
             types.MemberDescriptorType)

@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 
-# Pages that are made of what the program says of itself.
+# Pages that are generated from the program's own descriptions.
 COMMANDS = "reference/commands.md"
 PARAMETERS = "reference/parameters/"
 PYTHON_API = "reference/python.md"

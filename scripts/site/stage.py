@@ -172,7 +172,7 @@ def navigation(pages):
 
 
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)|!\[[^\]]*\]\(([^)\s]+)\)")
-# A code block is told by its first word.
+# The language of a code block, detected from its first word.
 LANGUAGES = ((r"(import|class \w+.*:$|masks = |sequence = |world = |raymoval\.)", "python"),
              (r"(#include|class \w+ : )", "cpp"), (r"[{\[]", "json"),
              (r"([\w.]*raymoval |near_points |scripts/|cmake |export |source |sudo |apt|docker |podman |ctest |pip )", "bash"))

@@ -13,8 +13,8 @@
 #   REFERENCE   folder of the reference (default: .raymoval-reference)
 #   COMPARE     options of `raymoval compare` (default: --across parameters,version)
 #   OUT         folder for the run, compare.md and compare.xml (default: raymoval-out)
-#   KEEP        yes: a run that is better becomes the reference: no rate of it is worse at all, whatever
-#               COMPARE tolerates, or the reference would sink by one tolerance after the other
+#   KEEP        yes: a better run becomes the reference, if none of its rates is worse, even within
+#               the tolerance of COMPARE (else the reference could get worse step by step)
 #
 # Without a reference the run becomes it. The exit code is that of `raymoval compare`: 0 the same or
 # better, 1 worse, 2 not comparable.

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What others' CI runs, on a repository with a method of its own, whose answers stay the same, get
-# worse, and come from a committed reference. The action and the GitLab template call that script; the
-# project's own workflows, the Dockerfile and the devcontainer name only what is there.
+# The script for other projects' CI, on a repository with its own method, whose answers stay the same,
+# get worse, and come from a committed reference. The action and the GitLab template call that script;
+# the project's workflows, the Dockerfile and the devcontainer name only existing files.
 # Usage: ci_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -16,7 +16,7 @@ source "$source_folder/tests/cli/checks.sh"
 PATH=$(dirname "$raymoval"):$PATH
 script=scripts/workflow/check_method.sh
 
-# A repository with a method: it removes what is lower than so many metres above the sensor.
+# A repository with a method: it removes points below a height above the sensor.
 mkdir -p repository/my_method
 cd repository || exit 1
 cat >my_method/manifest.json <<'JSON'
@@ -34,7 +34,7 @@ for scan in sorted(pathlib.Path("velodyne").iterdir()):
 PYTHON
 remove_below() { sed -i "s/^LIMIT = .*/LIMIT = $1/" my_method/method.py; }
 
-# says CODE TEXT COMMAND...: the exit code, and TEXT in what it prints.
+# says CODE TEXT COMMAND...: checks the exit code, and TEXT in the output.
 says() {
   checks=$((checks + 1))
   "${@:3}" >out.txt 2>err.txt

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What the program advises when a folder, a suite, a run or an output is not what it takes it for.
+# The advice of the program for a folder, a suite, a run or an output that is not the expected one.
 # Usage: advice_test.sh PATH/TO/raymoval 1|0 1|0
-# 1 where its reports have a 3-D view, and where it has PCL.
+# 1 if its reports have a 3-D view, and if it has PCL.
 set -uo pipefail
 raymoval=$(readlink -f "$1")
 view=$2
@@ -18,7 +18,7 @@ cp -r data/05 unlabelled/sequences/05
 rm -r unlabelled/sequences/05/labels
 expect 0 "" run --sequence data/05 --name town --method noop --quiet --keep-removals --out kept
 
-# A name that is a scene and a folder is told apart by the user.
+# If a name is a scene and a folder, the user must choose.
 cp -r data/05 town
 mkdir street
 both="town: is a scene and also a folder here; write ./town for the folder, or town:seed=1 for the scene."
@@ -110,7 +110,7 @@ expect 2 "has no sequence '06'. Did you mean '05'? A root holds sequences/NN; kn
 expect 2 "sequence 'town' has no labels, and oracle needs them; choose another --method." \
   clean unlabelled:05 -o map.pcd --method oracle --quiet
 
-# Where a file cannot be written is told before the work.
+# A file that cannot be written is reported before the work.
 there="there is no folder nowhere. Make it first."
 expect 2 "nowhere/a.json: $there" score --sequence data/05 --predictions empty --json nowhere/a.json
 expect 2 "nowhere/a.png: $there" picture kept -o nowhere/a.png
@@ -141,7 +141,7 @@ expect 0 "All controls" run "${short[@]}" --method noop --memory-limit 2GB --tim
   --out limits
 expect 0 "run   street / dufomap:offline" run "${short[@]}" --method all --method raymoval:online \
   --explain --out o
-# Without PCL nothing runs that needs it, however it is asked for.
+# Without PCL, no method that needs it runs, in any form of request.
 echo '{"sequences": ["street"], "methods": ["noop", "octomap", "octomap:ground"]}' >ground.json
 if [[ $has_pcl == 1 ]]; then
   expect 0 "run   street / octomap:ground-noise" run "${short[@]}" --method octomap:all \

@@ -14,7 +14,7 @@ complain() {
   sed 's/^/  err: /' err.txt | head -5
 }
 
-# expect CODE TEXT ARGUMENTS...: the exit code, and TEXT somewhere in what was printed.
+# expect CODE TEXT ARGUMENTS...: the exit code, and TEXT somewhere in the output.
 expect() {
   local code=$1 text=$2 got
   shift 2
@@ -72,12 +72,12 @@ wait_for() {
   until [[ -e $1 ]] || ! kill -0 "$2" 2>/dev/null; do sleep 0.05; done
 }
 
-# same_but_times DIR DIR: the same files, but for what differs from run to run.
+# same_but_times DIR DIR: the same files, except for values that differ from run to run.
 same_but_times() {
   diff <(without_times "$1") <(without_times "$2")
 }
 
-# without_times DIR: names and contents of the files, without what is measured.
+# without_times DIR: names and contents of the files, without measured values.
 without_times() {
   (cd "$1" && find . -type f | sort | while read -r file; do
     echo "== $file"

@@ -1,10 +1,10 @@
-#!/usr/bin/env bash
-# SPDX-License-Identifier: MIT
-# What `raymoval clean` refuses, warns of and leaves behind, and what no method gets to see.
-# Usage: clean_test.sh PATH/TO/raymoval_faulty
-set -uo pipefail
-raymoval=$(readlink -f "$1")
-source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+#!/ usr / bin / env bash
+#SPDX - License - Identifier : MIT
+#What `raymoval clean` refuses, warns of and leaves behind, and what no method gets to see.
+#Usage : clean_test.sh PATH / TO / raymoval_faulty
+set - uo pipefail raymoval = $(readlink - f "$1") source "$(dirname " $ {
+  BASH_SOURCE[0]
+}")/checks.sh"
 export RAYMOVAL_CACHE=$work/cache
 
 nothing_left() {
@@ -17,7 +17,7 @@ expect 0 "raymoval:online removed" clean drive "${online[@]}" -o good.pcd
 cp err.txt said.txt
 holds "nothing is said of good data" test ! -s said.txt
 
-# Points in millimetres: refused at once and with the finding, in spite of any memory.
+#Points in millimetres : refused at once and with the finding, in spite of any memory.
 cp -r drive millimetres
 for scan in millimetres/velodyne/*.bin; do
   perl -e 'binmode STDIN; binmode STDOUT; local $/; @v = unpack("f<*", <STDIN>);
@@ -42,7 +42,7 @@ expect 0 "poses-inverted: poses transform from the world to the sensor (T_sensor
   inspect --list
 expect 0 "few-points: a scan has far fewer points than those around it. (clean warns)" inspect --list
 
-# A file cut at a whole point is said, and cleaned all the same.
+# A file that is truncated at a whole point is reported, and still cleaned.
 cp -r drive cut
 rm -r cut/labels
 truncate -s $((16 * 9000)) cut/velodyne/000007.bin
@@ -125,7 +125,7 @@ expect 2 "more than 10,000 tiles of 0.001 m, which is the limit of a map. Choose
   clean drive "${online[@]}" -o tiny --tiles 0.001
 holds "no folder of tiles is left" test ! -e tiny
 
-# How sure the method is stands behind the other fields of each map, and changes nothing else.
+# Confidence is behind the other fields of each map, and changes no other output.
 expect 2 "raymoval has no confidence" clean drive "${online[@]}" -o sure.pcd --confidence
 expect 2 "--confidence has no effect" clean drive --labels sure --confidence
 sure=(--method octomap --quiet)
@@ -154,7 +154,7 @@ for axis in range(3):
     assert bounds[2 * axis + 1] - 1e-6 <= place <= bounds[2 * axis] + 1e-6
 PYTHON
 
-# Whatever becomes of it, nothing unfinished is left.
+# With any result, no unfinished file is left.
 outputs=(-o map.pcd --dynamic map2.pcd --labels labels_out --scans map_scans --picture map.png --quiet)
 expect 2 "cleaning took more than 600 MiB of memory (see --memory-limit) and was ended. Nothing was" \
   clean drive --method leak --memory-limit 600 "${outputs[@]}"

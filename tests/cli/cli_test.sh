@@ -28,7 +28,7 @@ expect 0 "raymoval describe protocol:erasor" describe erasor
 expect 0 "PR, RR, F1" describe protocol:erasor
 expect 2 "there is no method or protocol" describe protocol:erasr
 
-# How sure a method is. Who was not asked is run again, who cannot tell is not.
+# Confidence. Cells without it are run again, unless their method has none.
 expect 0 "Confidence: How likely" describe octomap
 expect 0 "Confidence: none." describe raymoval
 asked=(run "${short[@]}" --method octomap --method raymoval:online --out sure)
@@ -125,7 +125,7 @@ expect 2 "'paper'" table run --layout papper
 expect 2 "--sort need" table run --format json --sort F1
 expect 2 "matches no cell of this run" table run --only nothing
 
-# A changed parameter is marked wherever the row stands, and may have a name.
+# A changed parameter is marked in every table, and may have a name.
 note="tau0 = 0.2 (default 0.3)"
 expect 0 "raymoval:online\\*: $note" table run
 expect 0 "raymoval:online*: $note" table run --format tex
@@ -141,7 +141,7 @@ expect 2 "--as x: names one method" run "${short[@]}" --method noop --method ray
 expect 2 "--as cannot be given together with the suite" run quick --as x --out o
 holds "options stand in groups" grep -qx "Method options:" <("$raymoval" help run)
 
-# LaTeX is the accuracy alone unless more is asked for.
+# By default, LaTeX has the accuracy only.
 "$raymoval" table run --format tex >run.tex
 holds "one table" test "$(grep -c 'begin{table' run.tex)" -eq 1
 holds "its caption names the frames" grep -qF 'On street (frames 0 to 2, stride 1, 3 scans, any range).' run.tex
@@ -152,7 +152,7 @@ expect 2 "has no such table" table run --what confidence
 "$raymoval" table named --format csv --sort ms >sorted.csv
 holds "a CSV is sorted, too" sort -c -t, -g -k16,16 <(grep -E 'named|online' sorted.csv)
 
-# Papers' rows stand beside the same frames only, whatever the sequence is called.
+# Papers' rows are beside the same frames only, for any name of the sequence.
 make_drive ten/05 0 9 1
 make_drive segment/05 2350 2670 2
 for drive in ten segment; do expect 0 "" run $drive/05 --method raymoval:online --quiet --out $drive.run; done
@@ -256,7 +256,7 @@ expect 0 "SA" score "${short[@]}" --predictions $cell/removals --protocol dynami
 expect 2 "'distance'" score "${short[@]}" --predictions $cell/removals --protocol dynamicmap \
   --set dynamicmap.distanc=0.1
 
-# A cleaned map stands beside the oracle's; a broken one has no points.
+# A cleaned map is beside the oracle's; a broken map has no points.
 expect 0 "removed" clean street --frames 0:2 --quiet -o clean.pcd
 expect 0 "the oracle's cloud, scored in the same way: PR" score "${short[@]}" --cloud clean.pcd --protocol erasor --protocol dynamicmap
 expect 0 "precision" score "${short[@]}" --cloud clean.pcd --voxel 0.1
@@ -328,8 +328,8 @@ mkdir -p root/sequences
 expect 2 "kitti-00" run "$semantickitti" --data root --out kitti
 holds "no refused run made a folder" test ! -e kitti
 
-# The cells of one folder belong together: what is added stands beside what is there, and another
-# suite, or other data under the same name, is refused.
+# The cells of one folder belong together: new cells are added to existing cells, and another suite,
+# or other data under the same name, is refused.
 expect 0 "raymoval:online" run "${short[@]}" --method raymoval:online --out together
 "$raymoval" run --sequence street --frames 0:2 --method octomap --out together >out.txt 2>log.txt
 holds "kept cells are logged as kept" grep -qE 'street +noop:default .*\(kept\)$' log.txt
@@ -373,7 +373,7 @@ expect 2 "--voxel" clean street -o map2.pcd --voxel 0
 expect 2 "same file" clean street -o map2.pcd --dynamic map2.pcd
 holds "no refused map was written" test ! -e map2.pcd
 expect 2 "same file" clean street -o map2.pcd --dynamic ./map2.pcd
-# What is there stays, unless it is to be replaced; the same run gives the same bytes.
+# Existing files are kept unless --overwrite is given; the same run gives the same bytes.
 online=(clean street --frames 0:2 --quiet --method raymoval:online)
 expect 2 "--overwrite" "${online[@]}" -o map.pcd
 expect 2 "--overwrite" "${online[@]}" -o new.pcd --dynamic map.ply
@@ -526,8 +526,8 @@ expect 0 "" picture kept -o map.png --overwrite --only '*' --quiet --data sim
 expect 0 "" picture kept -o map.png --overwrite --only '*' --quiet --data sim/town
 expect 2 "fingerprint" picture kept -o map.png --overwrite --only '*' --quiet --data seed4
 
-# On a terminal one line tells cell, stage, scans done; in a log nothing but what is done; with
-# --quiet nothing at all. A narrow terminal cuts it.
+# On a terminal, one line shows cell, stage, scans done; a log has only finished steps; --quiet has no
+# output. A narrow terminal truncates the line.
 live() { script -qec "$*" /dev/null 2>&1 | tr -d '\r'; }
 if command -v script >/dev/null; then
   live "$raymoval" run --sequence street --frames 0:4 --method raymoval:offline --out live >live.txt
@@ -551,13 +551,13 @@ holds "F1 comes first, in one width" test "$(grep -cE '^\[[1-3]/3\] street  .{18
 holds "the end of a run fits a screen" test "$(wc -L <told.txt)" -le 100 -a "$(wc -l <told.txt)" -le 40 \
   -a -s told.txt
 
-# An interrupted run ends by itself and goes on later. It has more to do than can be done before the
-# signal comes, however late that is.
+# An interrupted run ends by itself and can be resumed. It has more work than can be done before the
+# signal, even if that is late.
 "$raymoval" run --sequence street --quiet --method all --out stopped >out.txt 2>err.txt &
 process=$!
 finished=stopped/cells/street/oracle-default/cell.json
 wait_for $finished $process
-# A shell's background jobs ignore SIGINT unless they ask for it, as the program does.
+# A shell's background jobs ignore SIGINT unless they install a handler, as the program does.
 kill -INT $process
 wait $process
 holds "an interrupted run exits with 130" test $? -eq 130

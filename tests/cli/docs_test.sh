@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The README and docs/ are true: their links lead somewhere, every command in them is one that the
-# program understands, and those that end soon are run, on small data. Data, runs and scenes that
-# pages take for granted (data/05, out/05, ...) are made here; each page starts with them anew.
+# The README and docs/ are true: their links are valid, the program accepts every command in them,
+# and short commands are run on small data. Data, runs and scenes that pages assume (data/05, out/05,
+# ...) are made here, newly for each page.
 # Usage: docs_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -26,7 +26,7 @@ for page in "${pages[@]}" "${recipes[@]}" CONTRIBUTING.md methods/README.md exam
     holds "$page: $link is a heading" grep -qxF -- "${link#*#}" <(anchors "$target")
   done < <(page_text "$page" | grep -oE '\]\([^)]+\)' | sed 's/^](//; s/)$//' | grep -v '^https\?:')
 done
-# Whoever begins with the README finds each page: it is linked there, or on a page that is.
+# Each page can be reached from the README: it is linked there, or on a page that is.
 mapfile -t near < <(page_text README.md | grep -oE '\]\([A-Za-z_/.-]+\.md' | sed 's/^](//' | sort -u)
 for page in "${pages[@]}"; do
   [[ $page == README.md ]] || holds "the README, or a page that it links to, links to $page" \
@@ -39,7 +39,7 @@ while read -r row; do
 done < <(page_text README.md | grep -E '^\|.*[0-9]+\.[0-9]+ \|' | cut -d'|' -f1-5)
 holds "the README has a row for each method" test "$(page_text README.md | grep -cE '^\| \[[a-z_]+\]\(methods/')" -eq \
   "$(find "$source_folder/methods" -mindepth 2 -maxdepth 2 -name README.md | wc -l)"
-# Code that a page shows stands in a file: each of its lines, but for blanks in front.
+# Code on a page is in a file: each of its lines, except for leading blanks.
 while read -r page file; do
   while read -r line; do
     holds "$page: $file has '$line'" grep -qF -- "$line" "$source_folder/$file"
@@ -82,11 +82,11 @@ check_command() {
 }
 # code_lines PAGE: lines of its code blocks, without comments behind them.
 code_lines() { page_text "$1" | grep -E '^    [^ ]' | sed -E 's/^    //; s/  +#.*$//; s/ # .*$//'; }
-# spans PAGE: what stands between backticks, a line each.
+# spans PAGE: the texts between backticks, one per line.
 spans() { page_text "$1" | grep -v '^    ' | tr '\n' ' ' | grep -oE '`[^`]+`' | tr -d '`'; }
 for page in "${pages[@]}" CONTRIBUTING.md methods/README.md examples/cpp_method/README.md; do
   while read -r line; do
-    line=${line%%|*}  # What follows is another program's.
+    line=${line%%|*}  # The rest is for another program.
     eval "words=(${line//[<>()]/ })" 2>/dev/null || continue
     check_command "$page" "${words[@]:1}"
   done < <({ code_lines "$page"; spans "$page"; } | grep -oE '(^|\()raymoval( .*)?$' | tr -d '(' | grep -v '^raymoval$')

@@ -34,7 +34,7 @@ silent plan "${short[@]}" --method erasor:version2 "${set[@]}"
 silent plan "${short[@]}" --method $general --set erasor.scan_ratio_threshold=0.3
 silent plan "${short[@]}" --method $general
 
-# A sweep without effect is told before it runs, and in its table after.
+# A sweep without effect is reported before it runs, and later in its table.
 cat >sweep.json <<'END'
 {"sequences": [{"path": "street", "frames": "0:4"}], "controls": false, "methods": [
   {"method": "erasor:general", "set": {"th_bin_max_h": {"sweep": [0, 0.3]}}}]}

@@ -62,7 +62,7 @@ expect 0 "cloud of" score --sequence near --cloud near.pcd --quiet
 grep -E ' (PR|RR) ' out.txt >near.txt  # Not within `holds`, which writes out.txt itself.
 holds "the map scores as near by" diff far.txt near.txt
 
-# Axes: y down. It is seen, said and recorded, and every mask is the same.
+# Axes: y down. This is detected, reported and recorded, and every mask is the same.
 expect 0 "note world-axes: poses.txt" inspect down --quiet
 expect 0 "suburb: up is -y of the world (estimated" run --sequence down --name suburb "${methods[@]}" --out run_down
 digests() { grep -h '"digest"' "run_$1"/cells/*/*/cell.json; }
@@ -70,7 +70,7 @@ holds "masks are those of the upright world" diff <(digests near) <(digests down
 holds "up is recorded" grep -q '"up": "-y"' run_down/cells/suburb/raymoval_plus-offline/cell.json
 expect 0 "up is -y of the world (estimated" clean down -o down.ply --method octomap
 
-# What a user says stands above it, and makes other cells.
+# The user's value takes precedence, and gives other cells.
 expect 2 "--up sideways: expected an axis of the world" inspect near --up sideways
 "$raymoval" inspect near --up -y --quiet >contradicted.txt
 holds "a wrong --up is a finding" grep -q '^finding up-contradicted' contradicted.txt

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Names by which somebody else would run, show or overwrite something: what no escape helps against
-# is refused wherever it comes from, and all else is text in every output.
+# Hostile names, which could run, show or overwrite something: a name that no escape makes harmless is
+# refused from any source, and other names are text in every output.
 # Usage: hostile_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -47,7 +47,7 @@ for name in "${some[@]}"; do
   refused "$name" "the name" "${run[@]}" --sequence street --method external:manifest.json --out run
 done
 
-# Names that only have to be escaped, in one run; the shell would run some of them.
+# Names that only need escapes, in one run; the shell would run some of them.
 odd=('<script>alert(1)<b>' 'a&amp;b' '$(touch hacked)' '`touch hacked`' 'a;touch hacked' "q'\"q" '*?[x]{y}'
   '![x](http:x)' '[x](javascript:x)' '| a | b |' '**b** _i_' '%n%s #1 ~^' 'a,b;c' $'straße 道')
 sequences=

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A method that crashes, hangs or leaks is one failed cell, and the rest goes on.
+# A method that crashes, hangs or leaks is one failed cell, and the other cells run.
 # Usage: isolation_test.sh PATH/TO/raymoval_faulty
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -45,7 +45,7 @@ holds "nothing that was started is left" test -z "$(left_over)"
 holds "no lock is left" test ! -e run/run.lock
 holds "no core file is left" test -z "$(find . -name 'core*')"
 
-# A limit below a second is told as it was given.
+# A limit below a second is reported as given.
 expect 1 "hang:default: did not finish within 0.2 s" run "${short[@]}" --method hang \
   --time-limit 0.2 --out limited
 

@@ -12,7 +12,7 @@ cat >suite.json <<'JSON'
   "methods": ["comb", "comb2", "crash", "raymoval:online"], "protocols": ["erasor", "dynamicmap"],
   "repeats": 2 }
 JSON
-# The same files but for times, and for who says that times were taken side by side.
+# The same files except for times, and for the note that times were measured side by side.
 expect 1 "b / crash:default: crashed: signal 11" run suite.json --quiet --threads 1 --keep-removals --out one
 expect 1 "a / crash:default: crashed: signal 11" run suite.json --quiet --jobs 3 --keep-removals --out three
 sed -i '/"jobs": 3/d; s/"threads": 1,$/"threads": 1/' three/run.json three/results.json
@@ -34,13 +34,13 @@ JSON
 touch_and_wait='touch here.$$; for i in $(seq 600); do [ $(ls here.* | wc -l) -ge 2 ] && exit 0; sleep 0.1; done; exit 1'
 FAULTY_COMMAND=$touch_and_wait expect 0 "" run both.json --quiet --jobs 2 --out both
 
-# Limits hold for each cell, and the rest goes on.
+# Limits hold for each cell, and the other cells run.
 expect 1 "hang:default: did not finish within 4 s" run --sequence street --frames 0:2 --quiet --jobs 2 \
   --method hang --method stray --method comb --time-limit 4 --out limits
 holds "both were ended" test "$(grep -c ',timeout,' limits/results.csv)" -eq 2
 holds "the good one has a score" grep -q "^street,comb,default,erasor,ok,[0-9]" limits/results.csv
 
-# Asked to end, it ends all, and the same command goes on.
+# On a signal it ends all cells, and the same command resumes.
 slow=(--sequence street --frames 0:3 --method comb --method comb2 --set comb.milliseconds=600
   --set comb2.milliseconds=600)
 "$raymoval" run "${slow[@]}" --quiet --jobs 2 --out cut >out.txt 2>err.txt &

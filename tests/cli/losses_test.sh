@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Scans that are lost are told on standard error, whatever --quiet says: those without a pose, and
-# those of a recording that is cut. So are predictions that remove nothing.
+# Lost scans are reported on standard error, also with --quiet: scans without a pose, and scans of a
+# truncated recording. So are predictions that remove no point.
 # Usage: losses_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")

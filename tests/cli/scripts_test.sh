@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every script says what it is for, from any folder, and refuses what it does not know before it
-# does anything.
+# Every script has a help text, works from any folder, and refuses unknown arguments before it does
+# anything.
 set -uo pipefail
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-# tells CODE TEXT SCRIPT ARGUMENTS...: the exit code, and TEXT somewhere in what was printed.
+# tells CODE TEXT SCRIPT ARGUMENTS...: the exit code, and TEXT somewhere in the output.
 tells() {
   checks=$((checks + 1))
   timeout 20 "$3" "${@:4}" >out.txt 2>err.txt
@@ -30,7 +30,7 @@ holds "dialect.sh finds unclear phrases" test "$(scripts/dialect.sh page.md sour
 source.h:2:int a = 0;  // Those that move."
 tells 2 "gone.md" scripts/dialect.sh gone.md
 
-# The version stands in CMakeLists.txt; what cannot read it there says the same.
+# The version is in CMakeLists.txt; files that cannot read it there have the same.
 house=$(readlink -f "$scripts/..")
 version=$(sed -nE 's/^project\(raymoval VERSION ([0-9.]+).*/\1/p' "$house/CMakeLists.txt")
 holds "CITATION.cff has version $version" grep -qx "version: $version" "$house/CITATION.cff"
@@ -40,8 +40,8 @@ holds "a page names the packages of $version" grep -q "raymoval_${version}_amd64
 holds "CITATION.cff has no DOI that is none" test -z \
   "$(grep -E '^doi:' "$house/CITATION.cff" | grep -vE '^doi: 10\.[0-9]{4,9}/[^ ]+$')"
 
-# Which commit is built: read in each build, written only if it is another one.
-# asks FOLDER: what the source says of the commit and the tree of FOLDER.
+# The commit of the build: read in each build, written only if it has changed.
+# asks FOLDER: the commit and the tree of FOLDER in the generated source.
 asks() {
   cmake -DSOURCE="$PWD/$1" -DOUTPUT="$PWD/commit.cpp" -P "$scripts/../cmake/build_commit.cmake"
   sed -n 's/.*return "\(.*\)".*/\1/p' commit.cpp | paste -sd' '

@@ -42,7 +42,7 @@ else
 fi
 
 # --- completion ---
-# offered LINE: what bash offers at the end of it, a word a line.
+# offered LINE: the completions of bash at its end, one word per line.
 offered() (
   source "$shell/raymoval.bash"
   COMP_LINE=$1 COMP_POINT=${#1} COMP_WORDBREAKS=$' \t\n"\'><=;|&(:'
@@ -71,7 +71,7 @@ holds "bash: every method and variant is offered" diff \
   <(offered "raymoval clean --method " | grep ':.' | grep -v '^external' | sort)
 
 # --- colours: on a terminal that shows them and whose user wants them ---
-# on_terminal COMMAND: what a terminal gets of it.
+# on_terminal COMMAND: its output on a terminal.
 on_terminal() { TERM=${term-xterm} script -qec "$1" /dev/null </dev/null 2>&1; }
 coloured() { grep -q "$escape\[[0-9;]*m" <<<"$1"; }
 plain() { ! coloured "$1"; }

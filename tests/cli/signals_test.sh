@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# How the program ends when it is asked to, or its child is, or it is killed; what is left then, and
-# for how long.
+# The end of the program by a signal to it or to its child, or by SIGKILL; the remains, and how long
+# they stay.
 # Usage: signals_test.sh PATH/TO/raymoval_faulty
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -14,7 +14,7 @@ begin() {
   "$raymoval" "$@" >out.txt 2>err.txt &
   process=$!
 }
-# ends CODE NAME: the exit code of what was begun.
+# ends CODE NAME: the exit code of the started program.
 ends() {
   local got
   wait $process 2>/dev/null
@@ -39,7 +39,7 @@ nothing_left() {
   parts >left.txt
   holds "$1 leaves nothing unfinished: $(tr '\n' ' ' <left.txt)" test ! -s left.txt
 }
-# sleepers: the processes that sleep for $nap seconds, whatever became of their environment.
+# sleepers: the processes that sleep for $nap seconds, with any environment.
 nap=3000.$$
 sleepers() { pgrep -fx "sleep $nap"; }
 no_sleepers() {
@@ -77,7 +77,7 @@ for signal in INT TERM HUP; do
   holds "and no sequence" test ! -e drive
 done
 
-# A second signal does not wait for anybody: here a method that never looks whether it shall end.
+# A second signal ends the program at once: here a method never checks for cancellation.
 begin run --sequence street --frames 0:9 "${slow[@]}" --only '*/comb*' --in-process --out alone
 wait_for_name alone/cells/street/comb-default_
 kill -TERM $process
@@ -100,7 +100,7 @@ wait_for_name 'map.pcd.*.part'
 kill -TERM "$(child_of $process)" $process
 ends 143 "clean whose child was ended, too"
 nothing_left "it"
-# For the child alone: that is a failure, and nobody asked the program to end.
+# A signal to the child alone is a failure: the program itself was not cancelled.
 begin "${clean[@]}"
 wait_for_name 'map.pcd.*.part'
 kill -TERM "$(child_of $process)"
@@ -108,7 +108,7 @@ ends 2 "clean whose child was ended"
 holds "it says by what" grep -q "ended from outside by signal 15" said.txt
 nothing_left "it"
 
-# Who starts a program with a signal ignored wants it to live on.
+# A program that is started with an ignored signal must continue.
 (trap '' HUP TERM; exec "$raymoval" run --sequence street --frames 0:2 --method comb --quiet \
   --only '*/comb*' --set comb.milliseconds=100 --out nohup >out.txt 2>err.txt) &
 process=$!

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Data that is unreadable, half there or changing is told and never scored; what is not of a run is
-# never deleted. Usage: trust_test.sh PATH/TO/raymoval_faulty
+# Data that is unreadable, incomplete or changing is reported and never scored; files that no run made
+# are never deleted. Usage: trust_test.sh PATH/TO/raymoval_faulty
 set -uo pipefail
 program=$(readlink -f "$1")
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -58,7 +58,7 @@ expect 0 "run   town / comb:default: data fingerprint" "${scores[@]}" --method m
   --explain
 expect 2 "--overwrite" "${scores[@]}" --method meddle --out run
 expect 0 "" "${scores[@]}" --method meddle --out run --overwrite
-# Labels count for who reads them.
+# Changed labels are an error for cells that read them.
 fresh
 export FAULTY_COMMAND="printf 'xyz' | dd of=data/labels/000004.label conv=notrunc status=none"
 expect 1 "the labels of scan 000004" "${scores[@]}" --method meddle --out labels
@@ -89,7 +89,7 @@ expect 0 "is missing); it is simulated again" run --sequence $scene --method com
 holds "the scores are the same" diff <(cut -d, -f1-15 before/results.csv) \
   <(cut -d, -f1-15 after/results.csv)
 
-# Nothing but a run's own is deleted.
+# Only files of a run are deleted.
 mkdir -p mine/thesis.part
 echo film >mine/film.mkv.part
 expect 2 "Nothing was changed" run --sequence street --frames 0:1 --quiet --method comb --out mine
@@ -131,7 +131,7 @@ for words in --help --version "run --help" "help run" "list methods" "describe r
   holds "$words to a full disk is an error" test $code -eq 2
 done
 
-# Few descriptors are enough, and fewer are told.
+# Few descriptors are enough; fewer are reported.
 few() { (ulimit -n "$1" && shift && "$raymoval" "$@") >out.txt 2>said.txt; }
 few 64 "${scores[@]}" --out few
 code=$?

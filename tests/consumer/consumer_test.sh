@@ -22,8 +22,8 @@ include=$work/installed/include/raymoval
 holds "no file tells where it was built" test -z "$(grep -rlF -e "$source/" -e "$build/" installed)"
 holds "the installed program runs" installed/bin/raymoval list methods
 
-# Each header can be included alone, and none brings what only the library's own sources need. Eigen
-# is compiled beforehand for those that include it, which they know from -M.
+# Each header can be included alone, and none includes headers that only the library's sources need.
+# Eigen is precompiled for headers that include it, which -M shows.
 flags=(-std=c++20 -w -x c++ -I "$include" $(pkg-config --cflags eigen3))
 headers() { (cd "$include" && find . -name '*.h' | sed 's|^\./||' | sort); }
 holds "headers are installed" test "$(headers | wc -l)" -gt 20

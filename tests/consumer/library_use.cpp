@@ -10,7 +10,7 @@
 
 using namespace raymoval;
 
-/// Removes whatever is nearer to the sensor than a limit.
+/// Removes points nearer to the sensor than a limit.
 class NearRemover : public Remover {
  public:
   explicit NearRemover(double limit) : limit_(limit) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs every built-in method on an empty sequence: all that they are made of has to be linked.
+// Runs every built-in method on an empty sequence: all their parts must be linked.
 #include <cstdio>
 
 #include "methods/registry.h"

@@ -109,7 +109,7 @@ TEST_CASE("all that a forking child has started is gone after a limit") {
 TEST_CASE("a double fork does not get away, whether the child ends or is ended") {
   const test::TemporaryFolder folder;
   const std::string ready = "'" + folder.text() + "/ready'";
-  // The script goes on when the daemon has left its session.
+  // The script continues when the daemon has left its session.
   const std::string daemon = "(setsid sh -c 'setsid sleep 600 & echo > \"$0\"; wait' " + ready +
                              " >/dev/null 2>&1 &); while [ ! -e " + ready +
                              " ]; do sleep 0.01; done; ";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// In which order a file reaches the disk, and what becomes of it if the system refuses. What the
-// code under test asks of the system passes here on its way: this program's fsync, rename and
-// fchown are found before those of the C library.
+// The order in which a file reaches the disk, and the result of system errors. This program's
+// fsync, rename and fchown replace those of the C library, so that calls of the code under test are
+// recorded here.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -73,7 +73,7 @@ std::size_t entries_in(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// Keeps what is asked of the system while it lives.
+/// Records system calls while it lives.
 class Recording {
  public:
   Recording() {
@@ -248,7 +248,7 @@ TEST_CASE("A file whose owner or group cannot be kept gives nobody more than bef
     return all_rights_of(path);
   };
   rights_when_given.clear();
-  // The first digit is no right of whom the file belongs to.
+  // The first digit is no right of the owner.
   CHECK(rights_after(04755, {}) == 0755);
   CHECK(rights_when_given == std::vector<mode_t>{0600});
   // Its group is that of before, so that this keeps its rights.

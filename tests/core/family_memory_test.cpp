@@ -96,7 +96,7 @@ TEST_CASE("an open file without a disk counts as memory if it was written meanwh
   const Descriptor file = memory_file("unmapped");
   const std::string piece(kMib, 'x');
   for (std::size_t i = 0; i < 40; ++i) REQUIRE(write_at(file.get(), piece, i * kMib));
-  // Files are looked at each 100 ms, and their clock ticks each 10.
+  // Files are measured every 100 ms, and their clock ticks every 10 ms.
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
   FamilyMemory after(kAnyMib);  // For this one the file was there before.
   CHECK(after.measure({::getpid()}) == Approx(without).margin(3.0));

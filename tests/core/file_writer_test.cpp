@@ -174,9 +174,9 @@ TEST_CASE("What is being made is told from what a dead process left") {
   for (const auto& part : left) {
     const Descriptor lock = take_abandoned_part(part);
     CHECK(lock.valid());
-    CHECK_FALSE(take_abandoned_part(part).valid());  // Somebody sees to it already.
+    CHECK_FALSE(take_abandoned_part(part).valid());  // `lock` holds it.
   }
-  // Of another machine nobody knows, and of another name nobody cares.
+  // Parts of another machine, whose state is unknown, and parts of another name are kept.
   std::string other = left[0].string();
   const std::size_t digit = other.rfind('-') + 1;
   other[digit] = other[digit] == 'a' ? 'b' : 'a';

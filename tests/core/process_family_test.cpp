@@ -18,8 +18,8 @@ using Kind = ChildEnd::Kind;
 
 namespace {
 
-/// Starts a daemon that has another parent, session and environment than the script, and goes on
-/// when it is there.
+/// Starts a daemon that has another parent, session and environment than the script, and continues
+/// when it runs.
 std::string daemon_in(const TemporaryFolder& folder) {
   const std::string ready = "'" + folder.text() + "/ready'";
   return "(env -i setsid sh -c '" + nap() + " & echo > \"$0\"; wait' " + ready +
@@ -68,7 +68,7 @@ TEST_CASE("children that are not of the family are neither ended nor waited for"
   const pid_t sleeper = own_child("exec " + nap());
   const pid_t ended = own_child("exit 7");
   REQUIRE(napping_become(1));
-  // While the family runs, this process is the foster parent of what its other children leave, too.
+  // While the family runs, this process is also the foster parent of processes of other children.
   ChildEnd end;
   std::thread family([&] {
     end = run_child(limited(": > '" + folder.text() + "/begun'; " + until_there(folder, "go"), 60));
@@ -105,7 +105,7 @@ TEST_CASE("families that run at once leave each other alone") {
   CHECK(napping_become(1));
   for (int i = 0; i < 5; ++i) CHECK(run_child(shell("exit 5")).code == 5);
   CHECK(napping().size() == 1);
-  // What cannot be told apart meanwhile ends with the last family.
+  // Processes of unknown family are ended with the last family.
   CHECK(run_child(limited(daemon_in(left) + "exit 6", 60)).code == 6);
   folder.write("go", "");
   first.join();

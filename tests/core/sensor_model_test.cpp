@@ -81,7 +81,7 @@ TEST_CASE("Without points there is no sensor to see") {
   Scan origin;
   origin.points.assign(10, Eigen::Vector3f::Zero());  // Lost returns: they have no direction.
   CHECK_THROWS_WITH(estimate_sensor_model({origin}), Contains("none of 1 sampled scans"));
-  // Scans without points do not spoil those that have some.
+  // Scans without points do not affect the result.
   const SensorModel model = estimate_sensor_model({Scan{}, origin, half_degree_scan(-30.0, 30.0)});
   CHECK(model.range_min == Approx(10.0));
 }

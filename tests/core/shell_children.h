@@ -47,7 +47,7 @@ inline std::string nap() {
   return "sleep 2000." + std::to_string(::getpid());
 }
 
-/// The processes that sleep so, whatever became of their environment.
+/// The processes that sleep for this time, with any environment.
 inline std::vector<pid_t> napping() {
   std::vector<pid_t> found;
   for (const pid_t process : all_processes()) {
@@ -60,7 +60,7 @@ inline std::vector<pid_t> napping() {
   return found;
 }
 
-/// Waits until so many sleep so; gives up after half a minute. @return whether they do
+/// Waits until `count` processes sleep; gives up after half a minute. @return whether they do
 inline bool napping_become(std::size_t count) {
   for (int i = 0; i < 1500 && napping().size() != count; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -68,7 +68,7 @@ inline bool napping_become(std::size_t count) {
   return napping().size() == count;
 }
 
-/// Leaves nothing behind for the next test, whatever went wrong in this one.
+/// Ends all sleeping processes before the next test, also after a failure.
 struct WakeAll {
   ~WakeAll() {
     for (const pid_t process : napping()) ::kill(process, SIGKILL);

@@ -25,7 +25,7 @@ TEST_CASE("JSON with comments is read, and the order of keys can be kept") {
 }
 
 TEST_CASE("A slip is named with line and column") {
-  // The closing brace in line 2 stands where a value is missing.
+  // The closing brace in line 2 is at the place of a missing value.
   CHECK_THROWS_WITH(parse_json("{\n\"a\": }", "f.json"),
                     Contains("f.json: line 2, column 6: not valid JSON"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points of the own vehicle: which they are, and that nobody gets them.
+// Points of the ego vehicle: they are found, and no method gets them.
 #include <random>
 
 #include "core/error.h"
@@ -127,7 +127,7 @@ TEST_CASE("where nothing goes along with the sensor nothing is left out", "[ego]
 }
 
 TEST_CASE("the ground before a sensor that looks down is no vehicle", "[ego]") {
-  // Somebody walks 16 m; the sensor in the hand looks down by 35 degrees, and up and down a little.
+  // A person walks 16 m; the hand-held sensor is pitched down by 35 degrees and nods a little.
   SimulationOptions options;
   options.scene = "walk";
   options.sensor = "vlp16";
@@ -169,7 +169,7 @@ TEST_CASE("a sequence says what is left out of it", "[ego]") {
           "25.0 % of the stored points are missing returns (NaN or at the origin) and are left out",
           "25.0 % of the stored points are on the ego vehicle (nearer than 1.5 m) and are left "
           "out"});
-  SequenceOptions options;  // Options stand above the file.
+  SequenceOptions options;  // Options replace the file's values.
   options.drop_ego = parse_ego_region("none");
   CHECK(open_sequence(folder.text(), options).scans->load(1).size() == 3);
   CHECK_FALSE(open_sequence(folder.text(), options).record().drop_ego);
@@ -181,7 +181,7 @@ TEST_CASE("a sequence says what is left out of it", "[ego]") {
 TEST_CASE("the vehicle in view is a finding, or a note where its labels say so",
           "[inspect][slow]") {
   EditedSequence many = with_own_points(good_drive());
-  many.range_m.min = 5.0;  // Methods see it whatever is evaluated.
+  many.range_m.min = 5.0;  // Methods get it for any evaluated range.
   const InspectionReport noted = many.inspected();
   INFO(text_of(noted));
   REQUIRE(noted.findings.size() == 1);

@@ -125,7 +125,7 @@ TEST_CASE("names sort naturally", "[frames]") {
   CHECK(natural_less("", "a"));
   CHECK(natural_less("1", "a"));
   CHECK_FALSE(natural_less("a", "1"));
-  CHECK(natural_less("a01", "a1"));  // Nothing but the zeros differs.
+  CHECK(natural_less("a01", "a1"));  // Only the zeros differ.
   CHECK(natural_less("01", "1") != natural_less("1", "01"));
   CHECK_FALSE(natural_less("7", "7"));
 }

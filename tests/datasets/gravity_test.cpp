@@ -19,9 +19,8 @@ namespace {
 
 enum class Houses { kNone, kRows, kBlocks };
 
-/// A straight road along x that climbs by `percent`, and a car on it: its sensor stands 1.8 m above
-/// the road and leans with it. Houses stand upright: one wall on either side, or blocks with
-/// gables.
+/// A straight road along x that climbs by `percent`, and a car on it: its sensor is 1.8 m above the
+/// road and leans with it. Houses are upright: one wall on either side, or blocks with gables.
 FlatWorld road(double percent, Houses houses) {
   const double climb = percent / 100.0;
   const Vector3d ahead = Vector3d(1, 0, climb).normalized();
@@ -66,7 +65,7 @@ TEST_CASE("a slope is not mistaken for a tilted world", "[gravity][slow]") {
     for (const Houses houses : {Houses::kNone, Houses::kRows, Houses::kBlocks}) {
       INFO(percent << " %, houses " << static_cast<int>(houses));
       const GravityEvidence evidence = estimate_gravity(road(percent, houses));
-      // The ground is seen for what it is, and up stays the world's z.
+      // The ground is found, and up is still the world's z.
       CHECK(degrees_between(evidence.ground, Vector3d::UnitZ()) ==
             Approx(std::atan(percent / 100.0) / kDegree).margin(1.0));
       CHECK(evidence.up.is_world_z());

@@ -136,7 +136,7 @@ inline std::string text_of(const InspectionReport& report) {
   return text;
 }
 
-/// The names of what was found, notes left out.
+/// The names of the findings, without notes.
 inline std::set<std::string> found(const InspectionReport& report) {
   std::set<std::string> names;
   for (const Finding& finding : report.findings) {

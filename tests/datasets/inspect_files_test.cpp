@@ -124,7 +124,7 @@ TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect][slow]
   PcdStyle none;  // PCL's default, points in the world frame.
   none.stored_pose = [](const Pose&) { return Pose(Pose::Identity()); };
   check_finds(inspect_dynamicmap(none, range, drive), "viewpoint-missing", "VIEWPOINT");
-  // Of one that stands on the ground, where no point lies below.
+  // A sensor on the ground, without points below.
   none.stored_pose = [&](const Pose&) {
     return Pose(Eigen::Translation3d(0.0, 0.0, -1.8) * drive.pose(0));
   };

@@ -65,7 +65,7 @@ TEST_CASE("noise of the poses, a climb and a drift to the side do not fit", "[in
 
 TEST_CASE("points in the frame of a vehicle are named, and brought to their sensor on request",
           "[inspect][slow]") {
-  // The sensor stands 0.8 m ahead of the vehicle's origin, 0.3 m to its left and 1.7 m above it.
+  // The sensor is 0.8 m ahead of the vehicle's origin, 0.3 m to its left and 1.7 m above it.
   const Eigen::Vector3d sensor(0.8, 0.3, 1.7);
   const Sequence street = make_street({}, street_boxes());
   const TemporaryFolder folder;

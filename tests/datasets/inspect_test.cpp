@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Defects made in a good drive that was traced in memory. Those that need files are in
+// Defects made in a good drive that was traced in memory. Defects of files are in
 // inspect_files_test.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -102,8 +102,8 @@ TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
 }
 
 TEST_CASE("a narrow view tells poses that the ground alone contradicts", "[inspect][slow]") {
-  // The sensor looks down by 35 degrees. Poses of a car that goes ahead would take it into the
-  // ground.
+  // The sensor is pitched down by 35 degrees. As poses of a car that drives ahead, its poses would
+  // lead into the ground.
   SimulationOptions options;
   options.scene = "walk";
   options.scans = 12;
@@ -263,7 +263,7 @@ TEST_CASE("duplicated scans are named", "[inspect]") {
   drive.words[9] = drive.words[8];
   const InspectionReport report = drive.inspected();
   INFO(text_of(report));
-  // A pose that stands for one scan and makes up for it in the next is a jump as well.
+  // A pose that is repeated for one scan and corrected in the next is a jump as well.
   CHECK(found(report).count("duplicated-scans") == 1);
 }
 
@@ -287,7 +287,7 @@ TEST_CASE("labels of the next or the last scan are named", "[inspect][slow]") {
     const InspectionReport by_count = drive.inspected();
     check_finds(by_count, "labels-shifted", "Rename");
     CHECK_THAT(by_count.findings[0].what, Catch::Contains(next ? "after it" : "before it"));
-    // With counts made equal only the places of the labels tell.
+    // With equal counts, only the places of the labels show it.
     for (std::size_t i = 0; i < drive.size(); ++i) {
       drive.words[i].resize(drive.scans[i].size(), 40);
     }

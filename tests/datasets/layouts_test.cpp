@@ -22,7 +22,7 @@ std::string world_pcd(const std::string& viewpoint, const std::string& rows, int
 
 void write_dynamicmap(const TemporaryFolder& folder) {
   folder.write("pcd/000007.pcd", world_pcd("0 0 0 1 0 0 0", "1 2 3 0\n4 5 6 1\n", 2));
-  // The sensor stands at (10, 0, 1), turned left by a quarter: its x is the world's y.
+  // The sensor is at (10, 0, 1), rotated left by 90 degrees: its x is the world's y.
   folder.write("pcd/000008.pcd", world_pcd("10 0 1 0.7071067811865476 0 0 0.7071067811865476",
                                            "10 2 1 1\n7 0 5 0\n", 2));
 }

@@ -55,7 +55,7 @@ TEST_CASE("A scan or label that is another when it is read again is an error") {
   at.write("velodyne/000001.bin", scan_bytes(7));
   test::check_says(test::message_of<DataError>([&] { (void)data.sequence.scans->load(1); }),
                    {"the data changed", "points, pose or time of scan 000001"});
-  // Whoever swallows the error cannot hide it.
+  // A caller that ignores the error cannot hide it.
   CHECK_THAT(data.loaded().change, Catch::Contains("000001"));
 }
 

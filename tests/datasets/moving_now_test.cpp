@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who moves at the time of a scan, by the side file of a sequence.
+// Objects that move at the time of a scan, by the side file of a sequence.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -17,7 +17,7 @@ constexpr std::uint32_t word(std::uint32_t instance, std::uint32_t id) {
 }
 
 /// Four scans of four points: the road, a car that leaves in scan 2, a person who stops in scan 1
-/// and goes on in scan 3, and an arm that nobody keeps a record of.
+/// and continues in scan 3, and an arm that is not in the side file.
 void write_street(const TemporaryFolder& folder) {
   std::string poses;
   for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points that stand for a missing return: NaN, or at the origin. Nobody gets them, and labels and
-// masks keep the places of all stored points.
+// Missing returns: NaN, or at the origin. No method gets them, and labels and masks keep the places
+// of all stored points.
 #include <cmath>
 #include <limits>
 
@@ -67,7 +67,7 @@ TEST_CASE("an organised cloud with NaN opens like any other", "[no-returns]") {
 
 TEST_CASE("in the world frame a no return is at its origin or at the sensor", "[no-returns]") {
   const TemporaryFolder folder;
-  // The sensor stands at (100, 0, 2). Point 0 is at the world's origin, 1 at the sensor, 2 is NaN
+  // The sensor is at (100, 0, 2). Point 0 is at the world's origin, 1 at the sensor, 2 is NaN
   // with an intensity that is no label; 3 to 5 are returns, the third 0.5 m from the world's
   // origin.
   folder.write("pcd/000000.pcd", organised_pcd("100 0 2 1 0 0 0",

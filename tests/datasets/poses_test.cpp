@@ -24,7 +24,8 @@ std::string pose_error(const std::string& content, std::size_t row = 0) {
 
 TEST_CASE("KITTI rows are 3 x 4 matrices row by row", "[poses]") {
   const TemporaryFolder folder;
-  // A quarter turn about z, then a move by (1, 2, 3): x goes to y, so (1, 0, 0) ends at (1, 3, 3).
+  // A rotation by 90 degrees about z, then a shift by (1, 2, 3): x maps to y, so (1, 0, 0) ends at
+  // (1, 3, 3).
   const auto path =
       folder.write("p.txt", "# made by hand\n\n0 -1 0 1 1 0 0 2 0 0 1 3\r\n" + kIdentityRow);
   const PoseFile file = read_pose_file(path);

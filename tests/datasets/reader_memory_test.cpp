@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Readers need no more memory than a stated number of times the size of the file, whatever its
-// header says. The numbers are those of SECURITY.md.
+// Readers need no more memory than a stated number of times the size of the file, for any header.
+// The numbers are those of SECURITY.md.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -63,7 +63,7 @@ bool suffices(std::size_t bytes, const std::function<void()>& read) {
   return WEXITSTATUS(status) == 0;
 }
 
-/// The sanitizers take address space for themselves, as if there were no end of it.
+/// Sanitizers reserve very much address space.
 bool can_be_limited() {
   return address_space() < (std::size_t{1} << 40);
 }
@@ -91,7 +91,7 @@ std::string pcd(const std::string& size, const std::string& type, std::size_t po
          "\nHEIGHT 1\nPOINTS " + count + "\nDATA " + data + "\n";
 }
 
-/// Zeros in the fewest bytes: three as they are, and references of three bytes to 264 of them.
+/// Zeros in the fewest bytes: three literal zeros, and references of three bytes to 264 zeros.
 std::string lzf_bomb(std::size_t references) {
   const auto unpacked = static_cast<std::uint32_t>(3 + 264 * references);
   std::string packed("\x02\0\0\0", 4);
@@ -182,7 +182,7 @@ TEST_CASE("readers of scans need a bounded number of times their file") {
   const auto packed = lzf_bomb(kReferences);
   const auto bomb =
       folder.write("bomb.pcd", pcd("1 1 1", "I I I", kPoints, "binary_compressed") + packed);
-  CHECK(read_cloud(bomb).points.size() == kPoints);  // It goes off.
+  CHECK(read_cloud(bomb).points.size() == kPoints);  // It decompresses.
   check_memory(bomb, 450, [&] { (void)read_cloud(bomb); });
   check_cloud("lies.pcd", 450, pcd("1 1 1", "I I I", kPoints + 1, "binary_compressed") + packed);
   check_cloud("far.pcd", 450, pcd("1 1 1", "I I I", 2000000000, "binary_compressed") + packed);

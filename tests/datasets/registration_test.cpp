@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Registration of overlapping scans, how well poses fit, and where rays start, on the exact street:
-// ground, two walls, two poles and a parked car, seen by an ideal sensor that goes 1 m a scan.
+// Registration of overlapping scans, the fit of poses, and the origin of rays, on the exact street:
+// ground, two walls, two poles and a parked car, with an ideal sensor that moves 1 m per scan.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -59,7 +59,7 @@ TEST_CASE("registration finds the motion between two scans from a guess that is 
 }
 
 TEST_CASE("a motion that no surface determines stays as guessed", "[registration]") {
-  // Two walls and the ground: nothing tells how far the sensor went along them.
+  // Two walls and the ground do not constrain the motion of the sensor along them.
   std::vector<StreetBox> walls = street_boxes();
   std::erase_if(walls, [](const StreetBox& box) { return box.label != 50; });
   const Sequence street = make_street({}, walls);
@@ -135,7 +135,7 @@ TEST_CASE("scan lines show where the rays start", "[registration]") {
   const RayOrigin given = find_ray_origin(scans);
   CHECK(given.origin.norm() < 0.15);
 
-  // The frame of a vehicle: the sensor stands 0.8 m ahead of its origin, and 1.7 m above it.
+  // The frame of a vehicle: the sensor is 0.8 m ahead of its origin, and 1.7 m above it.
   const Eigen::Vector3f sensor(0.8F, 0.3F, 1.7F);
   for (Scan& scan : scans) {
     for (Eigen::Vector3f& point : scan.points) point += sensor;

@@ -77,8 +77,8 @@ TEST_CASE("the LiDAR pose is Tr^-1 P Tr", "[semantickitti]") {
   write_sequence(folder, "", 2);
   // KITTI's axes: camera x = -LiDAR y, camera y = -LiDAR z, camera z = LiDAR x, moved by (1, 2, 3).
   folder.write("calib.txt", "Tr: 0 -1 0 1 0 0 -1 2 1 0 0 3\n");
-  // The camera goes 10 forward (its z) and turns by a quarter about its y (down), z to x: to the
-  // right. In LiDAR axes: a turn by -90 degrees about z.
+  // The camera moves 10 forward (its z) and rotates by 90 degrees about its y (down), z to x: to
+  // the right. In LiDAR axes: a rotation by -90 degrees about z.
   folder.write("poses.txt", kIdentityRow + "0 0 1 0 0 1 0 0 -1 0 0 10\n");
   const Pose pose = open_sequence(folder.text(), {}).scans->pose(1);
   // By hand for the LiDAR's origin: Tr gives (1, 2, 3); P gives (3, 2, -1 + 10) = (3, 2, 9);
@@ -111,7 +111,7 @@ TEST_CASE("a root opens by sequence number or by the name of a segment", "[seman
   CHECK(open_sequence(folder.text() + ":kitti-01", with_frames("0:4:2")).scans->size() == 3);
   check_says(open_error(folder.text() + ":kitti-05"), {"2350:2670:2", "3 frames from 0 to 2"});
   check_says(open_error(folder.text() + ":kitti-05"), {folder.text() + ":05 --frames 0:2."});
-  // What is there may have a stride, or no range of its own.
+  // The existing frames may have a stride, or match no range.
   std::filesystem::remove(folder / "sequences/05/velodyne/000001.bin");
   check_says(open_error(folder.text() + ":kitti-05"), {"2 frames", ":05 --frames 0:2:2."});
   std::filesystem::remove(folder / "sequences/05/velodyne/000000.bin");

@@ -63,7 +63,7 @@ TEST_CASE("a beam at 30 degrees down meets the ground at twice its height", "[st
 
 TEST_CASE("a level beam meets a moving box where it stands then", "[street]") {
   // Four directions: -x, -y, +x, +y. The box starts 10 m ahead and comes at 5 m/s (0.5 m a scan)
-  // while the sensor goes 1 m a scan: 10, 8.5, 7 m.
+  // while the sensor moves 1 m per scan: 10, 8.5, 7 m.
   const StreetBox box{{10, -1, 0}, {12, 1, 4}, {-5, 0, 0}, (9U << 16U) | 252U};
   const Sequence sequence = make_street(one_beam(0.0, 4), {box});
   for (std::size_t i = 0; i < 3; ++i) {

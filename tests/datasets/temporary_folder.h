@@ -71,7 +71,7 @@ std::string message_of(Call&& call) {
   return "";
 }
 
-/// Each of `parts` stands in `message`.
+/// Checks that `message` contains each of `parts`.
 inline void check_says(const std::string& message, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) CHECK_THAT(message, Catch::Contains(part));
 }

@@ -8,7 +8,7 @@
 
 namespace raymoval::test {
 
-/// The exact street, whose sensor goes 1 m a scan, under poses with an error in their position.
+/// The exact street, whose sensor moves 1 m per scan, with poses with an error in their position.
 class WrongPoses : public ScanSource {
  public:
   explicit WrongPoses(std::function<Eigen::Vector3d(std::size_t)> error,

@@ -14,7 +14,7 @@
 
 namespace raymoval::test {
 
-/// The ERASOR protocol once more, written from its description with nothing but loops over all
+/// A second implementation of the ERASOR protocol, written from its description with loops over all
 /// pairs. Shares no code with eval/.
 class SlowErasor {
  public:

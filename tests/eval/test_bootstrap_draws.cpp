@@ -19,7 +19,7 @@ std::vector<Sums> single_counts(const Sums& counts) {
   return scans;
 }
 
-/// The sum itself as a rate. All sums are kept, but for the first, which asks for the names.
+/// The sum itself as a rate. It stores all sums except the first, which requests the names.
 class SumRate {
  public:
   std::vector<Rate> operator()(const Sums& sums) {
@@ -74,7 +74,7 @@ TEST_CASE("each replicate is of whole blocks and of a shorter one that fills up"
   }
   const std::set<double> drawn(rate.drawn.begin(), rate.drawn.end());
   CHECK(std::includes(expected.begin(), expected.end(), drawn.begin(), drawn.end()));
-  // Nearly all that can be drawn comes up in 1,000 replicates.
+  // Nearly all possible draws occur in 1,000 replicates.
   CHECK(10 * drawn.size() > 9 * expected.size());
 }
 

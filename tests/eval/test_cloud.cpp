@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cleaned clouds without labels: what they score, and what a broken one deserves.
+// Cleaned clouds without labels: their scores, and errors for a broken cloud.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -54,7 +54,7 @@ TEST_CASE("the worked example's cloud scores as written for labels by nearest ne
   CHECK(method.count("estimate_voxels_without_partner") == 1);
   CHECK(method.count("preserved_static") == 2);
   CHECK(method.count("remaining_dynamic") == 2);
-  // Point 6 stands in the cell of 4 and 5, so its label is that of their centroid: the ceiling.
+  // Point 6 is in the cell of 4 and 5, so its label is that of their centroid: the ceiling.
   const Points best = kept_points(sequence, sequence.oracle_masks());
   const ProtocolResult ceiling = score_cloud("erasor", input, best);
   CHECK(ceiling.count("preserved_static") == 4);
@@ -63,7 +63,7 @@ TEST_CASE("the worked example's cloud scores as written for labels by nearest ne
   const ProtocolResult points = score_cloud("dynamicmap", input, cloud);
   CHECK(points.rate("SA") == 62.5);
   CHECK(points.rate("DA") == 75.0);
-  // By cells of 0.1 m point 2 counts as kept; its cell is kept by 10 anyway.
+  // With cells of 0.1 m, point 2 counts as kept; point 10 keeps its cell as well.
   const ProtocolResult strict = score_cloud("dynamicmap-strict", input, cloud);
   CHECK(strict.count("preserved_static") == 4);
   CHECK(strict.count("remaining_dynamic") == 1);
@@ -90,7 +90,7 @@ TEST_CASE("a shifted cloud loses the static map, and is warned of", "[cloud][edg
   const Points cloud = shifted(kept_points(sequence, sequence.oracle_masks()), {0.0f, 0.0f, 1.73f});
   const ProtocolResult voxels = score_cloud("erasor", sequence.input(), cloud);
   CHECK(voxels.count("cloud_points") == static_cast<std::int64_t>(cloud.size()));
-  CHECK_THROWS_AS(voxels.count("removed_points"), InternalError);  // Nobody knows which.
+  CHECK_THROWS_AS(voxels.count("removed_points"), InternalError);  // Unknown for clouds.
   CHECK(voxels.rate("PR") == 0.0);
   CHECK(voxels.rate("F1") == 0.0);
   REQUIRE(voxels.warnings.size() == 1);
@@ -143,7 +143,7 @@ TEST_CASE("masks of a cloud are what it lacks", "[cloud]") {
   shape.extent = 3.0f;
   const MemorySequence sequence = random_sequence(shape);
   EvaluationInput input = sequence.input();
-  // With a distance of 1 mm no point stands in for another one here, so the masks come back.
+  // With a distance of 1 mm, no point replaces another, so the masks are recovered.
   const Points cloud = kept_points(sequence, sequence.masks());
   for (const int threads : {1, 8}) {
     input.threads = threads;

@@ -144,7 +144,7 @@ TEST_CASE("classes have the names of the data set", "[columns]") {
   CHECK(LabelRule{}.class_name(252) == "moving-car");
   CHECK(LabelRule{}.class_name(9) == "label-9");
   CHECK(LabelRule{"dynamicmap", {1}, {}, {}}.class_name(1) == "label-1");
-  // A column for each that says what it is, and no two of one name.
+  // A described column for each, and all names differ.
   for (const Column& column : general_columns()) {
     CHECK_FALSE(column.description.empty());
     CHECK_FALSE(column.undefined_reason.empty());

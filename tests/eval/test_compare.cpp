@@ -260,7 +260,7 @@ TEST_CASE("Across parameters rates are judged, and it is told which parameters d
   CHECK_THAT(strict.moved.at(0), Contains("parameter tau0 is 0.4, the reference has 0.3"));
   CHECK(strict.scores.at(0).across ==
         std::vector<std::string>{"parameter tau0 is 0.4, the reference has 0.3"});
-  // Only F1 is judged, and it rose; PR is told.
+  // Only F1 decides, and it rose; PR is reported.
   const Comparison f1 = compared(run, kReference, across_parameters({{"F1", 0.01}}));
   CHECK(f1.verdict() == ExitCode::kDone);
   CHECK_THAT(comparison_text(f1), Contains("PR 99.0000 -> 98.9000"));
@@ -360,7 +360,7 @@ TEST_CASE("A reference without times is told once where times are to be judged")
   CHECK(result.verdict() == ExitCode::kCannotDo);
   REQUIRE(result.incomparable.size() == 1);
   CHECK_THAT(result.incomparable[0], Contains("--update --with-times"));
-  // One cell of several without a time is told by its name.
+  // One cell of several without a time is reported with its name.
   const Comparison one =
       compare_results({{kReference, timed_other}, {}}, {{kReference, other}, {}}, {{}, 3.0});
   CHECK(one.verdict() == ExitCode::kCannotDo);

@@ -102,7 +102,7 @@ TEST_CASE("Sentences are put together if all but the sequence or the method is t
               line("u", "a", "dynamicmap", "x"), line("v", "b", "erasor", "x")}) ==
         "Worse:\n  s / a, erasor: x\n  t / a, erasor: y\n  u / a, dynamicmap: x\n"
         "  v / b, erasor: x\n");
-  // Twice the same is told once.
+  // A repeated sentence is reported once.
   CHECK(told({line("s", "a", "erasor", "x"), line("s", "a", "erasor", "x")}) ==
         "Worse:\n  s / a, erasor: x\n");
 }
@@ -166,7 +166,7 @@ TEST_CASE("A time at its band is no worse, and one beyond says by how much") {
   CHECK(compared_one(run, reference, {{}, 2.0}).worse ==
         std::vector<std::string>{"s / a: 3.00 times the reference (375.0 ms per scan, was 125.0), "
                                  "more than 2 times"});
-  reference.seconds_per_scan = 0.0;  // Nothing can be told of it.
+  reference.seconds_per_scan = 0.0;  // No comparison is possible.
   CHECK(compared_one(run, reference).times.empty());
 }
 
@@ -321,7 +321,7 @@ TEST_CASE("A rate has a tolerance if one is given, or none at all across paramet
   options.across_parameters = true;
   const Comparison across = compared_one(run, reference, options);
   CHECK(across.scores.at(0).rates.at(0).tolerance == 0.0);
-  CHECK_FALSE(across.scores.at(0).rates.at(1).tolerance);  // Nobody knows what is better.
+  CHECK_FALSE(across.scores.at(0).rates.at(1).tolerance);  // The better direction is unknown.
 }
 
 TEST_CASE("A rate that rises does not outweigh one that falls within its tolerance") {

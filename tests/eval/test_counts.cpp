@@ -105,7 +105,7 @@ TEST_CASE("counts are summed over scans", "[counts]") {
   CHECK(voxels.count("evaluated_points") == 5);
   CHECK(voxels.count("removed_points") == 2);
   CHECK(score_by("dynamicmap-strict", input, sequence.masks()).count("ego_points") == 2);
-  // A last scan of which nothing is left is no error.
+  // A last scan without a point left is no error.
   const MemorySequence far_end({row_with({{40, false}}), LabelledScan{}});
   CHECK(score_by("dynamicmap", far_end.input(), far_end.masks()).count("static_points") == 1);
 }
@@ -140,7 +140,7 @@ TEST_CASE("only the labels 0 and 1 near the sensor are the ego vehicle", "[count
   const MemorySequence sequence({scan});
   EvaluationInput input = sequence.input();
   CHECK(score_by("dynamicmap", input, sequence.masks()).count("ego_points") == 2);
-  // Where 1 is the class of what moves, 0 is what stands.
+  // If 1 is the moving class, 0 is the static class.
   input.label_rule = LabelRule{"binary", {1}, {}, {}};
   const ProtocolResult binary = score_by("dynamicmap", input, sequence.masks());
   CHECK(binary.count("ego_points") == 0);

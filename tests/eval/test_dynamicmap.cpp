@@ -98,8 +98,8 @@ TEST_CASE("the worked example scores by sets of cells", "[dynamicmap][worked]") 
   CHECK(fine.rate("DA").value() == Approx(200.0 / 3));
   CHECK(fine.rate("AA").value() == Approx(100.0 * std::sqrt(8.0 / 21)));
   CHECK(fine.rate("HA").value() == Approx(100.0 * 8.0 / 13));  // 2 (4/7)(2/3) / (4/7 + 2/3).
-  // Cells of 0.2 m: 3 joins 2 and 10, and 6 stands in the cell of 4 and 5, which is cleared of
-  // moving points all the same.
+  // Cells of 0.2 m: 3 joins 2 and 10, and 6 is in the cell of 4 and 5, which is still cleared of
+  // moving points.
   const ProtocolResult coarse =
       score_by("dynamicmap-strict", sequence.input(), sequence.masks(), {{"voxel_size", 0.2}});
   CHECK(coarse.count("static_voxels") == 6);

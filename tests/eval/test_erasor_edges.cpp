@@ -50,7 +50,7 @@ std::string message_of(Call&& call) {
 /// A point that stays at (x, y, z) in the world with a lift of 0, for exact distances.
 MemorySequence pair_at_distance(const Eigen::Vector3f& offset) {
   // Voxels of 0.5 m; the static point (5.25, 0.25, 0.25) is flagged, its neighbour is kept. The
-  // offset goes to another cell, so that the two are voxels of their own.
+  // offset leads to another cell, so that the two are separate voxels.
   LabelledScan scan;
   scan.add(5.25f, 0.25f, 0.25f, 40, true);
   scan.add(5.25f + offset.x(), 0.25f + offset.y(), 0.25f + offset.z(), 40, false);
@@ -207,7 +207,7 @@ TEST_CASE("of two equally near partners the first in cell order counts", "[eraso
 }
 
 TEST_CASE("the crop is strict and looks at x and y only", "[erasor][edge]") {
-  // (1.5, 2.0) lies exactly 2.5 m from the axis and stays; a step nearer it goes; z is no help.
+  // (1.5, 2.0) is exactly 2.5 m from the axis and is kept; nearer points are cropped, at any z.
   LabelledScan scan;
   scan.add(1.5f, 2.0f, 0.0f, 40);
   scan.add(std::nextafter(1.5f, 0.0f), 2.0f, 9.0f, 40);
@@ -269,7 +269,7 @@ TEST_CASE("trucks are counted both ways when they occur", "[erasor][edge]") {
   CHECK(without.count("static_voxels") == 3);
   CHECK(without.count("preserved_static") == 2);
   CHECK_THROWS_AS(without.count("static_voxels_no_truck"), InternalError);
-  // No trucks, nothing to tell apart.
+  // Without trucks, there are no such counts.
   CHECK_THROWS_AS(score_row({{40, false}, {252, true}}).count("static_voxels_no_truck"),
                   InternalError);
 }

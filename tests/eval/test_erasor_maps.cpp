@@ -14,7 +14,7 @@ namespace {
 
 using erasor::VoxelKind;
 
-/// The dense map of what a mask leaves, and the scan of each of its points.
+/// The dense map of the kept points of a mask, and the scan of each of its points.
 struct WholeDenseMap {
   LabelledCloud cloud;
   std::vector<std::uint32_t> scans;

@@ -83,8 +83,9 @@ TEST_CASE("the worked example's truth has the cells, centroids and labels as wri
 
 TEST_CASE("the worked example by the other rules", "[erasor][worked]") {
   const MemorySequence sequence = worked_example();
-  // By geometry every voxel with a partner within 0.173 m is still there, whatever it is labelled:
-  // all but (-31, -16, 0) have one.
+  // By geometry, every voxel with a partner within 0.173 m is still there, with any label: all
+  // except
+  // (-31, -16, 0) have one.
   const ProtocolResult geometry =
       score_erasor(sequence.input(), sequence.masks(), {{"label_rule", std::string("geometry")}});
   CHECK(geometry.count("preserved_static") == 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scoring holds in memory, by its own accounts: bounded by the map, whatever the answer is and
-// however many points lie in a voxel.
+// The memory of scoring, as reported by `bytes`: bounded by the map, for any answer and any number
+// of points in a voxel.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
@@ -14,7 +14,7 @@
 namespace raymoval::test {
 namespace {
 
-/// Asks for what is in memory whenever a scan was taken in.
+/// Checks the memory after each scan.
 class Watched : public ScanVisitor {
  public:
   Watched(ScanVisitor& inner, std::function<void()> look) : inner_(inner), look_(std::move(look)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What decides which point gives a cell its label: who is looked at, and what counts as a tie.
+// Which point gives a cell its label: the searched points, and ties.
 #include <catch2/catch.hpp>
 
 #include "eval/points/cell_neighbours.h"
@@ -9,7 +9,7 @@
 namespace raymoval {
 
 TEST_CASE("cells that the reach only touches are visited", "[voxels]") {
-  // Cells of 0.5 m; the query stands in the middle of its own, 0.25 m from each wall.
+  // Cells of 0.5 m; the query is in the middle of its cell, 0.25 m from each wall.
   const Eigen::Vector3d query(5.25, 5.25, 5.25);
   for (const VoxelIndex& step : {VoxelIndex(1, 0, 0), VoxelIndex(0, 1, 0), VoxelIndex(0, 0, 1),
                                  VoxelIndex(-1, 0, 0), VoxelIndex(0, -1, 0)}) {
@@ -42,8 +42,8 @@ TEST_CASE("a point farther by just the margin is a tie, and the first index give
 }
 
 TEST_CASE("the margin of a tie is one of distances", "[voxels]") {
-  // Four points about the middle of a cell; the first is farther from their mean than the second
-  // by half of what it lies off, 0.8e-9 m.
+  // Four points about the middle of a cell; the first is farther from their mean than the second by
+  // half of its offset, 0.8e-9 m.
   const double off = 1.6e-9;
   LabelledCloud cloud;
   cloud.points = {{0.08 - off, 0.1, 0.1}, {0.12, 0.1, 0.1}, {0.1, 0.15, 0.1}, {0.1, 0.05, 0.1}};

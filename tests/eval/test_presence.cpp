@@ -121,7 +121,7 @@ TEST_CASE("fine cells tell near from far for any distance", "[dynamicmap]") {
     }
     const CellLattice blocks(set);
     CellLattice::Cursor cursor;
-    // Whatever lies within the distance is within reach of the point's cell.
+    // All points within the distance are within reach of the point's cell.
     for (int i = 0; i < 200; ++i) {
       const double u = 0.1 * i, z = 1.0 - 0.01 * i;
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A printed number beside the one that follows from the rest of its table.
+/// A printed number, and the number that follows from the rest of its table.
 struct ArithmeticCheck {
   std::string method;
   std::string place;  ///< Sequence, "average", "average (computed)" or "total".
@@ -97,8 +97,8 @@ void check_total(const PublishedTable& table, const PublishedRow& total, Checks&
 
 /// Recomputes every number that follows from others: rates with a formula (F1 from PR and RR, AA
 /// and HA from SA and DA), averages of rates, the average F1 by both rules (`mean_F1` and
-/// `F1_of_means`, of which a paper follows one), and totals of stages. Returns all comparisons; how
-/// large a deviation may be depends on the digits that were printed, which the caller knows.
+/// `F1_of_means`, of which a paper follows one), and totals of stages. Returns all comparisons; the
+/// caller decides the largest deviation, which depends on the printed digits.
 std::vector<ArithmeticCheck> check_arithmetic(const PublishedTable& table) {
   Checks checks;
   for (const PublishedRow& row : table.rows) check_row(row, checks);
@@ -126,8 +126,8 @@ PublishedTable shipped(const std::string& name) {
 }
 
 /// Largest deviation that rounding explains: half a unit of the last of 3 decimals, a little more
-/// for F1 whose PR and RR are rounded too. Transcriptions with 2 decimals are off by up to 0.005
-/// in a rate itself and by 0.01 in what follows from two of them; with one decimal by 0.1.
+/// for F1 whose PR and RR are rounded too. Transcriptions with 2 decimals deviate by up to 0.005 in
+/// a rate, and by 0.01 in a number from two rates; with one decimal by 0.1.
 double tolerance(const ArithmeticCheck& check, int decimals) {
   if (check.metric == "F1" || decimals == 3) return 0.0006;
   return decimals == 2 ? 0.0101 : 0.101;

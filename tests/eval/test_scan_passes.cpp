@@ -43,7 +43,7 @@ TEST_CASE("visitors that wait have their passes after the others, one by one", "
   std::string told;
   NamedVisitor a('a', 3, 2, told), b('b', 2, kNever, told), c('c', 2, 2, told);
   run_passes(sequence.input(), sequence.masks(), {&a, &b, &c});
-  // All begin together; then b goes on alone, then a, which came before c.
+  // All begin together; then b continues alone, then a, which came before c.
   CHECK(told == "abcbb.aaa.cc.");
   CHECK(a.scans == 3 * scans);
   CHECK(b.scans == 2 * scans);

@@ -89,7 +89,7 @@ class Command:
         self.arguments = arguments
         self.inputs = inputs  # names in base -> names in the folder
         self.has_cells = has_cells
-        self.once = once  # It refuses to replace what it has made.
+        self.once = once  # It refuses to replace its output.
 
     def prepare(self, base, folder):
         shutil.rmtree(folder, ignore_errors=True)
@@ -142,7 +142,7 @@ def make_inputs(program, base, environment):
     make("simulate", "world.json", "-o", "data", "--threads", "1", "--quiet")
     make("run", "suite.json", "--quiet", "--keep-removals", "--out", "run")
     shutil.copy(os.path.join(base, "run/results.json"), os.path.join(base, "half.json"))
-    # A run that died: one cell is there, of the other one only what it removed.
+    # A run that died: one cell is there, of the other cell only its removals.
     shutil.copytree(os.path.join(base, "run"), os.path.join(base, "half"))
     for name in ("results.json", "results.csv", "table.md", "table.tex"):
         os.remove(os.path.join(base, "half", name))

@@ -5,12 +5,12 @@
 //
 //   RAYMOVAL_FAULT_COUNTS=FILE   4096 zero bytes, in which the calls of all processes are counted
 //   RAYMOVAL_FAULT=CALL,DEPTH,K  the K-th call (from 1) of this kind fails in the processes of this
-//                                depth: 0 is the first process, 1 are those that it starts
+//                                depth: 0 is the first process, 1 are its child processes
 //   RAYMOVAL_FAULT_PLACES=FILE   the number of each allocation of depth RAYMOVAL_FAULT_AT whose
 //                                callers are new is written there, one 64-bit number each
 //
-// Files of the system (/proc, /usr ...), pipes and standard error are left alone: what is read
-// there is none of ours, and how often depends on the clock.
+// Files of the system (/proc, /usr ...), pipes and standard error are ignored: they are no data of
+// the program, and the number of reads depends on the clock.
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -131,7 +131,7 @@ bool starts(const char* text, const char* begin) {
   return strncmp(text, begin, strlen(begin)) == 0;
 }
 
-/// Whether a path is none of the system's.
+/// Whether a path does not belong to the system.
 bool is_ours(const char* path) {
   if (starts(path, "/dev/shm/")) return true;
   for (const char* foreign : {"/proc", "/sys", "/dev", "/usr", "/lib", "/lib64", "/etc", "/run"}) {
@@ -197,7 +197,7 @@ void read_orders() {
     places = static_cast<int>(
         syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     void* frame = nullptr;
-    backtrace(&frame, 1);  // Loads what it needs.
+    backtrace(&frame, 1);  // Loads its library.
   }
 }
 

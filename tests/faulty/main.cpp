@@ -67,7 +67,7 @@ void meddle() {
 }
 
 void hang() {
-  ::fork();  // What it starts hangs too.
+  ::fork();  // Its child hangs too.
   for (;;) ::pause();
 }
 
@@ -102,7 +102,7 @@ class Unsteady : public raymoval::Remover {
   }
 };
 
-/// Hands on another method's answer but for one in a hundred of the points that it removed.
+/// Passes on another method's answer, except for one in a hundred of the removed points.
 class Slipping : public raymoval::Remover {
  public:
   explicit Slipping(std::unique_ptr<raymoval::Remover> method) : method_(std::move(method)) {}

@@ -26,7 +26,7 @@ ordered_json results_of(const ordered_json& cell) {
   return json;
 }
 
-/// The file as it stands, then its content with the checksum made good, as a cell and in results.
+/// The file unchanged, then its content with a valid checksum, as a cell and in results.
 RAYMOVAL_FUZZ_TARGET(cell) {
   const auto path = input_file("cell.json", bytes);
   may_refuse([&] { (void)read_cell(path); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands beside the scans, and what users write.
+// Files beside the scans, and files that users write.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -10,7 +10,7 @@
 namespace raymoval::fuzz {
 namespace {
 
-/// A folder that goes with the process.
+/// A folder that is deleted with the process.
 class Folder {
  public:
   Folder() {

@@ -49,7 +49,7 @@ std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& given)
   return files;
 }
 
-/// Each name stands there before its input is tried, so that the last one is that of a crash.
+/// Each name is printed before its input is tried, so that the last name is that of a crash.
 void replay(Target target, const std::filesystem::path& path) {
   std::cout << path.filename().string() << std::endl;
   std::ifstream file(path, std::ios::binary);

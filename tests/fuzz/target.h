@@ -9,7 +9,7 @@
 
 namespace raymoval::fuzz {
 
-/// Tries one input on a parser. Whatever it lets through (an exception, a crash) is a finding.
+/// Tries one input on a parser. An exception or a crash is a finding.
 using Target = void (*)(std::string_view bytes);
 
 /// Makes `target` known under `name`. @return anything

@@ -39,7 +39,7 @@ MANIFEST = {
     "name": "keeper", "sentence": "Keeps all.", "source": "none", "version": "1", "online": False,
     "command": ["sh", "{here}/keep.sh"], "files": ["keep.sh"],
 }
-# Answers that everything stays; meanwhile a daemon and a child sleep for a time that tells them.
+# Keeps all points; meanwhile a daemon and a child sleep for a time that identifies them.
 KEEP = """
 (env -i setsid sh -c 'sleep NAP & wait' >/dev/null 2>&1 &)
 sleep NAP &
@@ -179,7 +179,7 @@ class Job:
 
     def finish(self, folder):
         if self.name == "simulate" and same(folder / "drive", self.reference / "drive"):
-            return  # It refuses to write where a sequence stands.
+            return  # It refuses to overwrite a sequence.
         process = self.place.start(self.arguments, folder)
         _, said = process.communicate(timeout=10 * PATIENCE_S)
         if process.returncode != 0:

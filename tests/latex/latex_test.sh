@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# table.tex has to compile as it is in a minimal document, within the page.
+# table.tex must compile unchanged in a minimal document, within the page.
 # Usage: latex_test.sh PATH/TO/raymoval; exit code 77: there is no pdflatex.
 set -uo pipefail
 if ! command -v pdflatex >/dev/null; then

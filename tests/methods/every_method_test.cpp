@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the contract demands of every method, whatever it does.
+// The contract of every method.
 #include <oneapi/tbb/global_control.h>
 
 #include <atomic>
@@ -57,8 +57,7 @@ class KeptEvidence : public EvidenceSink {
 
 }  // namespace
 
-// Where the world's origin lies and which way its axes point is nobody's business: what a method
-// answers may depend on it only through the lattice of its voxels.
+// A method's answer may depend on the world's origin and axes only through its lattice of voxels.
 TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
   const toy::World world = toy::street(8);
   for (const ConfiguredMethod& method : all_methods()) {
@@ -77,7 +76,7 @@ TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
 }
 
 TEST_CASE("any number of threads gives the same answer", "[threads][slow]") {
-  // As many threads as are asked for, on any number of processors.
+  // As many threads as requested, on any number of processors.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   const toy::World world = toy::street(10);
   for (const ConfiguredMethod& method : all_methods()) {
@@ -92,7 +91,7 @@ TEST_CASE("any number of threads gives the same answer", "[threads][slow]") {
   }
 }
 
-// Nobody who looks closer changes what there is to see.
+// Requesting evidence does not change the result.
 TEST_CASE("evidence changes no mask, and is the same for any number of threads",
           "[threads][slow]") {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);

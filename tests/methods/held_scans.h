@@ -28,7 +28,7 @@ class HeldScans : public ScanSource {
     scan.points = std::move(points);
     add_scan(std::move(scan));
   }
-  /// Adds a scan as it is given but for its position among the others.
+  /// Adds a scan unchanged except for its index.
   void add_scan(Scan scan) {
     scan.index = scans_.size();
     scan.stored_point_count = scan.points.size();

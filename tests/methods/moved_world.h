@@ -38,9 +38,9 @@ inline Pose whole_motion(double x, double y, double z, int quarters) {
   return motion;
 }
 
-/// A road with walls, a pole and two movers: a car (box 3) that drives off and a person (box 4)
-/// who crosses. Every coordinate is drawn off the lattices of 0.05 m and its multiples, so that no
-/// surface lies on a voxel wall. The sensor stands 1.6 m above the road and drives 0.7 m a scan.
+/// A road with walls, a pole and two movers: a car (box 3) that drives off and a crossing person
+/// (box 4). Every coordinate is off the lattices of 0.05 m and its multiples, so that no surface is
+/// on a voxel wall. The sensor is 1.6 m above the road and moves 0.7 m per scan.
 inline World street(int scans, unsigned seed = 7, const Scanner& scanner = {}) {
   std::mt19937 random(seed);
   const auto off_lattice = [&random] {

@@ -71,7 +71,7 @@ double clamped(const ParameterSpec& spec, double value) {
   return std::clamp(value, spec.notes.minimum, spec.notes.maximum);
 }
 
-/// Values other than `present` to try, those that change little first.
+/// Values other than `present` to try, small changes first.
 std::vector<ParameterValue> other_values(const ParameterSpec& spec, const ParameterValue& present) {
   std::vector<ParameterValue> values;
   const auto add = [&](const ParameterValue& value) {
@@ -101,7 +101,7 @@ std::vector<ParameterValue> far_values(const ParameterSpec& spec, const Paramete
   return values;
 }
 
-/// A variant, and what it answers as it is configured.
+/// A variant, and its answer with its configuration.
 class Variant {
  public:
   explicit Variant(ConfiguredMethod configured) : method(std::move(configured)) {}
@@ -145,7 +145,7 @@ ConfiguredMethod configured(const std::string& name) {
   if (method.entry->name == "dynablox") {  // The scanner leaves few points on anything.
     set_parameter(method.configuration, "min_points", std::int64_t{3});
   }
-  if (method.entry->name == "hmm_mos") {  // Most of the time goes with the number of voxels.
+  if (method.entry->name == "hmm_mos") {  // The time mostly depends on the number of voxels.
     set_parameter(method.configuration, "voxel_size", 0.4);
   }
   return method;
@@ -198,7 +198,7 @@ void check_method(const std::string& name) {
   }
 }
 
-/// A parameter that conditions name, and a value with which what they say may no longer hold.
+/// A parameter that conditions name, and a value for which they may be false.
 struct TurnedOff {
   std::string name;
   ParameterValue value;

@@ -22,7 +22,7 @@ TEST_CASE("one point, two points and a line have an upright plane", "[plane]") {
   const Plane ramp = fit_plane(Points{{0, 0, 0}, {1, 0, 0.5}, {2, 0, 1}}, Mask{1, 1, 1}).plane;
   CHECK(ramp.normal.z() == Approx(2.0 / std::sqrt(5.0)));
   CHECK(ramp.height_of({1, 5, 0.5}) == Approx(0.0).margin(1e-12));
-  // A vertical line is on its plane whatever that is.
+  // A vertical line is on its plane for any direction of the plane.
   const Plane wall = fit_plane(Points{{3, 1, 0}, {3, 1, 1}, {3, 1, 2}}, Mask{1, 1, 1}).plane;
   CHECK(wall.height_of({3, 1, 7}) == Approx(0.0).margin(1e-12));
 }

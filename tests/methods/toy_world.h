@@ -47,7 +47,7 @@ struct Scanner {
   double azimuth_from = -180.0;  ///< Degrees.
   double azimuth_to = 180.0;
   double range = 50.0;
-  double elevation_step = 0.5;  ///< That the model tells, degrees; rows stay half a degree apart.
+  double elevation_step = 0.5;  ///< In the model, degrees; rows are always half a degree apart.
 
   [[nodiscard]] SensorModel model() const {
     SensorModel sensor;

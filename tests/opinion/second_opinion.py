@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # The source tree stays as it is.
+sys.dont_write_bytecode = True  # The source tree is not changed.
 
 import dynamicmap
 import dynamicmap_strict
@@ -121,7 +121,7 @@ def check_case(program, case, place, seed):
     shown, names = folder, None
     if case.layout == "dynamicmap":
         shown = place / "clouds"
-        names = {}  # 0 and 1 say only what moves.
+        names = {}  # 1 moves; there are no classes.
     sequence = sequence_files.read_sequence(folder, answers)
     good, answer, cloud, protocols = True, answers, None, PROTOCOLS
     if case.as_cloud:

@@ -15,7 +15,7 @@ from raymoval import _methods
 from support import QUIET, KeepAll, NearPoints, raised, street, turned
 
 
-#: A method as it is typed in.
+#: A method typed into a session.
 FAR = """class Far(raymoval.Remover):
     def run(self, r, z, far=30.0):
         return {body}
@@ -208,7 +208,7 @@ class Entries(unittest.TestCase):
         self.assertEqual(version(Tabled([1])), version(Tabled([1])))
         self.assertNotEqual(version(Tabled([1])), version(Tabled([2])))
         changed = NearPoints()
-        changed.distance = 3.0  # A parameter is told by itself.
+        changed.distance = 3.0  # Parameters are stored separately.
         self.assertEqual(version(changed), version(NearPoints))
         changed.version = "7"
         self.assertEqual(version(changed), "7")

@@ -135,7 +135,7 @@ class Runs(unittest.TestCase):
         changed = NearPoints()
         changed.distance = 2.0
         self.assertEqual(self.run_into("near", [changed]).reused, 3)
-        for reused in (3, 4):  # The first stands beside the method without the setting.
+        for reused in (3, 4):  # The first is beside the method without the setting.
             again = self.run_into("near", [NearPoints], settings={"near_points.distance": 2.0})
             self.assertEqual(again.reused, reused)
         self.assertIn("near_points:python*", [row["cell"] for row in again.rows])

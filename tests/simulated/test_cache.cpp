@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What is told in a log, as text.
+/// The text of a log.
 class Log {
  public:
   Log() : file_(std::tmpfile()), progress_(ProgressStyle::kLog, file_) {}
@@ -201,7 +201,7 @@ TEST_CASE("What a killed process left goes, and what may be alive or another's s
   std::string elsewhere = new_part_name(target).string();
   char& digit = elsewhere[elsewhere.rfind("raymoval-") + 9];
   digit = digit == '0' ? '1' : '0';
-  // Names and age alone prove nothing: of earlier versions, of other machines, of anybody.
+  // Names and age alone are no proof: earlier versions, other machines and users have such files.
   const std::vector<fs::path> others = {
       cache / "town-0123456789abcdef.1.0.part", cache / "thesis.part", elsewhere,
       cache / "town-0123456789abcdef.raymoval-0123456789abcdef.part"};

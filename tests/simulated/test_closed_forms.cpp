@@ -16,7 +16,7 @@ namespace {
 constexpr Paint kPaint{Material::kPerfect, kLabelBuilding};
 using ClosedForm = std::function<std::optional<double>(const Vector3d& from, const Vector3d& to)>;
 
-/// Sweep `scan` of the plain sensor, without noise, from a place where it stands.
+/// Sweep `scan` of the plain sensor, without noise, from a fixed pose.
 Sweep sweep_from(const World& world, const Isometry3d& pose, std::size_t scan = 0,
                  Rolling rolling = Rolling::kNone) {
   const SensorFile sensor = plain_sensor();
@@ -154,8 +154,8 @@ TEST_CASE("a cylinder is met at the root of its quadratic") {
 }
 
 TEST_CASE("a moving box is where its speed has brought it") {
-  // The box starts with its middle at x = 30 m and goes 8 m/s; at scan 15 (1.5 s) its back stands
-  // at 30 + 12 - 1 = 41 m. A sensor at x = 20 m, 1 m high, sees the back 21 m ahead.
+  // The box starts with its middle at x = 30 m and moves 8 m/s; at scan 15 (1.5 s) its back is at
+  // 30 + 12 - 1 = 41 m. For a sensor at x = 20 m, 1 m high, the back is 21 m ahead.
   const Ground ground = flat_ground();
   World world;
   world.add_mover(box_mover(ground, 30.0, 8.0));
@@ -202,8 +202,9 @@ TEST_CASE("a rolling scan is skewed by the motion of the sensor, or corrected fo
 }
 
 TEST_CASE("a box that moves during a rolling scan is met where it then is") {
-  // The sensor stands; the box's back is 19 m ahead at the reference time and goes 20 m/s. Only
-  // azimuths within about 3 degrees see it, so it is there to within 20 * 0.1 * 3 / 360 = 0.017 m.
+  // The sensor is stationary; the box's back is 19 m ahead at the reference time and moves 20 m/s.
+  // Only azimuths within about 3 degrees hit it, so it is there to within
+  // 20 * 0.1 * 3 / 360 = 0.017 m.
   const Ground ground = flat_ground();
   World world;
   world.add_mover(box_mover(ground, 20.0, 20.0));

@@ -141,8 +141,8 @@ TEST_CASE("a mover that backs up is written as moving") {
 TEST_CASE("the cache makes a sequence once, whoever asks at once") {
   const TemporaryFolder scratch;
   const fs::path cache = scratch / "simulated";
-  // A half-written folder under a temporary name, of whatever age, is nobody's business here: see
-  // test_cache.cpp for what is cleared away.
+  // A half-written folder under a temporary name, of any age, is ignored here: test_cache.cpp tests
+  // its removal.
   fs::create_directories(cache / "town-0123456789abcdef.1.0.part");
   std::array<fs::path, 4> found;
   std::vector<std::thread> askers;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scenes unlike KITTI are made of: queues, people who stop, things that come and go unseen,
-// slopes, a sensor in the hand, panes and drops.
+// Parts of scenes unlike KITTI: queues, people who stop, objects that come and go unseen, slopes, a
+// hand-held sensor, panes and drops.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -206,7 +206,7 @@ TEST_CASE("drops return as outliers near the sensor, and fog hides what is far")
     sum += static_cast<double>(sweep.points[i].norm()) - 0.5;
     REQUIRE(sweep.points[i].x() < 10.0F);
   }
-  // A tenth of 10,000 (standard error 30), but for the exp(-9.5 / 2) = 0.9 % behind the wall.
+  // A tenth of 10,000 (standard error 30), except for the exp(-9.5 / 2) = 0.9 % behind the wall.
   CHECK(std::abs(static_cast<double>(drops) - 991.0) < 130.0);
   CHECK(sum / static_cast<double>(drops) == Approx(2.0 - 9.5 * 0.0087).epsilon(0.15));
 

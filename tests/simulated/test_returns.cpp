@@ -53,7 +53,7 @@ TEST_CASE("drop-out grows with range, grazing angle and darkness, and glass hard
   const auto returned = [&](double range, Material material) {
     return static_cast<double>(sweep_of_wall(sensor, range, material).points.size()) / 1e4;
   };
-  // Nothing but the plain loss of 2 % close by; 1 - mirror times that for glass.
+  // Only the plain loss of 2 % close by; 1 - mirror times that for glass.
   CHECK(returned(5.0, Material::kPlaster) == Approx(0.98).margin(0.01));
   CHECK(returned(5.0, Material::kGlass) == Approx(0.98 * 0.35).margin(0.02));
   // Brick (30 %) returns half as often as not where its light is that of 10 % at 60 m:

@@ -82,7 +82,7 @@ TEST_CASE("every point labelled moving lies on a part of that mover", "[slow]") 
 
 TEST_CASE("an object that moves at any time is labelled moving throughout") {
   // The queue at the crossing starts at second 7: it moves in a sequence of 150 scans (15 s), and
-  // stands in one of 30 (3 s).
+  // is stationary in a sequence of 30 scans (3 s).
   const auto queue_label = [](std::size_t scans) {
     SimulationOptions options;
     options.scene = "crossing";
@@ -113,7 +113,7 @@ TEST_CASE("a car that parks keeps its moving label while it stands") {
 }
 
 TEST_CASE("a speed profile travels the area below it") {
-  // Stands until 2 s, then gains 2 m/s a second up to 8 m/s at 6 s (16 m), then keeps it.
+  // Stationary until 2 s, then accelerates by 2 m/s^2 up to 8 m/s at 6 s (16 m), then keeps it.
   const SpeedProfile profile({{0, 0}, {2, 0}, {6, 8}});
   CHECK(profile.distance(1.0) == 0.0);
   CHECK(profile.distance(4.0) == Approx(4.0));

@@ -56,7 +56,7 @@ def look(site, width, dark):
             if browser.run("[...document.images].some((image) => !image.naturalWidth)"):
                 faults.append(f"{name}: a picture is not shown.")
             contrast = browser.run(CONTRAST)
-            if contrast < 4.5:  # What WCAG asks for, level AA.
+            if contrast < 4.5:  # Required by WCAG, level AA.
                 faults.append(f"{name}: some letters have a contrast of {contrast:.1f} only.")
         if not dark:
             try:

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The documentation site: every page is in a section, mkdocs has no warning, each link and anchor leads
-# somewhere, nothing is fetched from elsewhere, the pages that are made of what the program says have
-# all of it, and a browser shows them well on a phone and in the dark. Without mkdocs only the first is
-# looked at, and the exit code is 77.
+# The documentation site: every page is in a section, mkdocs has no warning, each link and anchor is
+# valid, no file is fetched from elsewhere, generated pages have all of the program's descriptions, and
+# a browser shows them well on a phone and in the dark. Without mkdocs only the first is checked, and
+# the exit code is 77.
 # Usage: site_test.sh PATH/TO/raymoval
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -13,7 +13,7 @@ export PYTHONDONTWRITEBYTECODE=1
 
 stage=(python3 "$source_folder/scripts/site/stage.py" --program "$raymoval" --out "$work/staged")
 holds "every page is in a section" "${stage[@]}"
-# A page that nobody put into a section, and a section whose page is gone.
+# A page that is in no section, and a section whose page is missing.
 in_sections() { (cd "$source_folder/scripts/site" && python3 -c "
 import pathlib, reference, stage
 pages = stage.pages_of(pathlib.Path('$source_folder')) + list(reference.GENERATED)
@@ -64,7 +64,7 @@ code=$?
 [[ $code -ne 77 ]] || cat looked.txt
 holds "the pages look right in Chromium: $(head -n 5 looked.txt)" test "$code" -eq 0 -o "$code" -eq 77
 
-# The check finds what it looks for.
+# The check detects planted defects.
 check() { python3 "$source_folder/scripts/site/stage.py" --check "$site"; }
 page=$site/docs/clean.html
 cp "$page" good.html

@@ -3,9 +3,9 @@
 //
 //   raymoval_threads SEQUENCE [FIRST:LAST [METHOD...]]
 //
-// Runs every variant of every method (or those of the named methods), and each method with every
-// switch turned and every choice made, with 1, 2, 3 and 8 threads, whatever the number of
-// processors. Exit code 1 if a mask or a reason differs. scripts/threads.sh runs it.
+// Runs every variant of every method (or of the named methods), and each method with every switch
+// turned and every choice made, with 1, 2, 3 and 8 threads, on any number of processors. Exit code
+// 1 if a mask or a reason differs. scripts/threads.sh runs it.
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -31,7 +31,7 @@ MethodRequest request_for(const ConfiguredMethod& method, const std::string& nam
   return request;
 }
 
-/// The values that a switch or a choice has besides the present one.
+/// The values of a switch or a choice other than the present value.
 std::vector<ParameterValue> other_values(const ParameterSpec& spec, const ParameterValue& present) {
   std::vector<ParameterValue> values;
   if (const bool* flag = std::get_if<bool>(&present)) values.emplace_back(!*flag);

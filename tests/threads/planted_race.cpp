@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A race between chunks of a parallel loop, and a loop without any: scripts/threads.sh sees by them
-// that ThreadSanitizer finds what it is meant to find, and does not take TBB's work for a race.
+// A race between chunks of a parallel loop, and a loop without a race: with these,
+// scripts/threads.sh checks that ThreadSanitizer finds the race, and does not report TBB's work as
+// a race.
 //
 //   raymoval_planted_race none | between-chunks
 #include <oneapi/tbb/global_control.h>

@@ -12,7 +12,7 @@ if ! command -v snakemake >/dev/null; then
   exit 1
 fi
 
-# workflow SUITE OUT: the exit code of the workflow, what it said in workflow.txt.
+# workflow SUITE OUT: the exit code of the workflow; its output is in workflow.txt.
 workflow() {
   HOME=$work snakemake -s "$source_folder/scripts/workflow/Snakefile" --cores 2 --keep-going \
     --config "raymoval=$raymoval" "suite=$1" "out=$2" "options=--memory-limit 2000" \
@@ -47,7 +47,7 @@ holds "the others have their results" grep -q "^b,comb,default,erasor,ok" flow/r
 holds "and it has its reason" grep -q "crashed: signal 11" flow/results.json
 
 # An installed copy, called from another folder: it finds the program beside it, and the profile
-# finds its script. sbatch and scontrol are stand-ins that run each job at once.
+# finds its script. sbatch and scontrol are replaced by scripts that run each job at once.
 mkdir -p installed/bin installed/share/raymoval stubs elsewhere
 ln -s "$raymoval" installed/bin/raymoval
 cp -r "$source_folder/scripts/workflow" installed/share/raymoval/
@@ -64,7 +64,7 @@ chmod +x stubs/*
 cat >small.json <<'JSON'
 { "sequences": [{"path": "street", "frames": "0:2"}], "methods": ["comb"], "controls": false }
 JSON
-# installed_workflow SNAKEFILE OPTIONS...: called from the folder elsewhere, with the stand-ins.
+# installed_workflow SNAKEFILE OPTIONS...: called from the folder elsewhere, with these scripts.
 installed_workflow() {
   (cd elsewhere && HOME=$work PATH=$work/stubs:$PATH SLURM_STUB=$work/stubs snakemake -s "$@") \
     >workflow.txt 2>&1

@@ -23,13 +23,13 @@ MessageEncoding encoding_of(const std::string& name) {
   return MessageEncoding::kOther;
 }
 
-/// A time as MCAP writes it; what is beyond the year 2262 counts as that.
+/// A time of MCAP; times beyond the year 2262 are clamped.
 Nanoseconds mcap_time(std::uint64_t time) {
   constexpr auto kLast = std::numeric_limits<Nanoseconds>::max();
   return static_cast<Nanoseconds>(std::min(time, static_cast<std::uint64_t>(kLast)));
 }
 
-/// Whether the file ends with a footer, as one does that was written to its end.
+/// Whether the file ends with a footer. A truncated file does not.
 bool has_footer(const McapFile& file) {
   const BagFile& bytes = file.bytes();
   if (bytes.size() < kMcapMagic.size() + kMcapEndSize) return false;
@@ -38,19 +38,19 @@ bool has_footer(const McapFile& file) {
          bytes.read(bytes.size() - kMcapMagic.size(), kMcapMagic.size()) == kMcapMagic;
 }
 
-/// What the records of a file say besides its messages.
+/// The records of a file other than its messages.
 struct McapDirectory {
   std::map<std::uint16_t, std::string> schemas;
   std::map<std::uint16_t, McapChannel> channels;
   std::map<std::uint64_t, McapChunkIndex> chunks;  ///< By where the chunk begins.
-  std::optional<std::uint64_t> messages;           ///< By the statistics; nothing if they say none.
+  std::optional<std::uint64_t> messages;           ///< By the statistics, if they have it.
 };
 
-/// Adds what is found to the contents, and says what could not be read.
+/// Fills the contents and reports unreadable parts.
 class McapReader {
  public:
   McapReader(const McapFile& file, DamageNotes& damage) : file_(file), damage_(damage) {
-    // Each message takes some bytes of the file, however well it is packed.
+    // Each message takes some bytes of the file, however well it is compressed.
     most_messages_ = file.bytes().size() / 2 + 65536;
   }
 
@@ -85,7 +85,7 @@ class McapReader {
     all.begin = begin - kMcapHeadSize;  // So that its content is the summary.
     all.size = footer_begin - begin;
     const std::string records = file_.content(all);
-    // The footer's own checksum is the last of what it is over.
+    // The checksum covers the summary and the footer up to the checksum itself.
     const std::string_view head = std::string_view(end).substr(0, kMcapHeadSize + 16);
     if (crc != 0 && crc != crc32_of(head, crc32_of(records))) {
       throw DataError(name() + ": the summary is damaged.");
@@ -96,7 +96,7 @@ class McapReader {
     if (!problem.empty()) throw DataError(where + ": " + problem + ".");
   }
 
-  /// Takes what a record that is no message says.
+  /// Adds a record that is no message.
   void add_record(McapOp op, std::string_view content, const std::string& where) {
     McapFields fields(content, where);
     if (op == McapOp::kSchema) {
@@ -144,8 +144,8 @@ class McapReader {
 
   // --- From the message indexes ---
 
-  /// Takes all messages from the indexes that the summary names. @return whether these are whole,
-  /// fit their chunks, and hold as many as the statistics say
+  /// Takes all messages from the indexes that the summary names. @return whether the indexes are
+  /// whole, fit their chunks, and hold the number of messages of the statistics
   bool use_indexes() {
     if (!known_.messages) return false;
     for (const auto& [begin, index] : known_.chunks) {
@@ -184,7 +184,7 @@ class McapReader {
       const std::string damage = damage_in([&] { at = read_next(at); });
       if (damage.empty()) continue;
       damage_.add(damage);
-      // Where the summary knows the next chunk behind the damage.
+      // Continue at the next chunk behind the damage that the summary lists.
       const auto next = known_.chunks.upper_bound(at);
       at = next == known_.chunks.end() ? file_.bytes().size() : next->first;
     }
@@ -200,7 +200,7 @@ class McapReader {
     }
   }
 
-  /// Reads the record at `at`. @return where to go on
+  /// Reads the record at `at`. @return where to continue
   std::uint64_t read_next(std::uint64_t at) {
     const McapPlace record = file_.record(at);
     if (record.op == McapOp::kDataEnd || record.op == McapOp::kFooter) {
@@ -304,7 +304,7 @@ std::string McapBag::message_head(std::size_t topic, std::size_t index, std::siz
 std::string McapBag::in_file(const McapPlace& record, std::size_t most) const {
   const std::uint64_t head = std::min<std::uint64_t>(most, record.size) + kMcapMessageHeadSize;
   std::string bytes = file_.content(record, 0, head);
-  // What is packed alone is not read in part.
+  // A message that is compressed by itself is not read in part.
   const bool is_packed = bytes.size() > kMcapMessageHeadSize &&
                          is_zstd(std::string_view(bytes).substr(kMcapMessageHeadSize));
   return is_packed ? file_.content(record) : bytes;

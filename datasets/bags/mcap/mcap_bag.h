@@ -15,27 +15,28 @@
 
 namespace raymoval {
 
-/// Where a message of a MCAP file stands, as one number that grows along the chunks.
+/// The place of a message in a MCAP file, as one number that increases along the chunks.
 struct McapMessagePlace {
-  /// What `chunk` is for a message that stands in no chunk. Such places come behind all others.
+  /// The value of `chunk` for a message outside chunks. Such places come behind all others.
   static constexpr std::uint64_t kNoChunk = std::uint64_t{1} << 31;
   std::uint64_t chunk = kNoChunk;  ///< Number of the chunk in `McapContents::chunks`.
-  std::uint64_t offset = 0;        ///< In the unpacked chunk, or in the file.
+  std::uint64_t offset = 0;        ///< In the decompressed chunk, or in the file.
 
   [[nodiscard]] std::uint64_t number() const;
   static McapMessagePlace of(std::uint64_t number);
 };
 
-/// What a MCAP file holds, without its messages.
+/// The contents of a MCAP file, without its messages.
 struct McapContents {
   MessageTable messages;                        ///< Places are those of `McapMessagePlace`.
   std::vector<std::uint64_t> chunks;            ///< Where the record of each chunk begins.
   std::map<std::uint16_t, std::size_t> topics;  ///< Topic in `messages` of each channel.
 };
 
-/// Reads what is in a MCAP file: from its summary and message indexes, if these are whole and hold
-/// what the statistics say; else from front to back, where each chunk is unpacked once.
-/// @param damage gets what could not be read
+/// Reads the contents of a MCAP file. If its summary and message indexes are whole and fit the
+/// statistics, these are used. Else the file is read from front to back and each chunk is
+/// decompressed once.
+/// @param damage gets sentences on unreadable parts
 /// @throws UnreadableError if the disk fails
 McapContents read_contents(const McapFile& file, DamageNotes& damage);
 
@@ -59,7 +60,7 @@ class McapBag : public Bag {
   [[nodiscard]] std::vector<std::string> damage() const override { return damage_.sentences(); }
 
  private:
-  /// The content of a message's record that stands in the file as it is, at most `most` bytes.
+  /// The first `most` bytes of the content of a message's record outside compressed chunks.
   [[nodiscard]] std::string in_file(const McapPlace& record, std::size_t most) const;
   [[nodiscard]] std::string in_chunk(const McapChunkPlace& chunk,
                                      const McapMessagePlace& place) const;

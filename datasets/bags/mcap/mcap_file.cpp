@@ -99,7 +99,7 @@ std::string for_each_record(std::string_view records,
 namespace {
 
 constexpr std::uint64_t kMostContent = std::uint64_t{1} << 30;
-/// A chunk's head with the longest name of a compression that is looked at.
+/// Bytes of a chunk's head with the longest compression name that is read.
 constexpr std::uint64_t kChunkHeadSize = 8 + 8 + 8 + 4 + 4 + 64 + 8;
 
 [[noreturn]] void throw_too_large(const std::string& where, std::uint64_t size) {
@@ -119,7 +119,7 @@ Unpacked unpack_by(const std::string& compression, std::string packed, std::uint
   return {std::move(packed), problem};
 }
 
-/// What an op is called.
+/// The name of an op.
 std::string_view mcap_op_name(McapOp op) {
   static constexpr std::array<std::string_view, 16> kNames = {
       "record of type 0", "header",     "footer",        "schema",         "channel",
@@ -196,7 +196,7 @@ Unpacked McapFile::unpack(const McapChunkPlace& chunk) const {
   std::string packed = bytes_.read_up_to(chunk.packed, head.packed_size);
   const bool is_cut = packed.size() < head.packed_size;
   check_unpacked_size(head.packed_size, head.unpacked_size, chunk.where);
-  // The limit looks at what is there: what is missing cannot be unpacked.
+  // The limit is for the bytes that are there: missing bytes cannot be decompressed.
   const std::uint64_t most = std::min(head.unpacked_size, most_unpacked_size(packed.size()));
   Unpacked unpacked = unpack_by(head.compression, std::move(packed), most, chunk.where);
   if (is_cut) unpacked.problem = "the file ends in the middle of it";

@@ -21,12 +21,12 @@ namespace raymoval {
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 /// Bytes of a record before its content: the op and the length of the content.
 inline constexpr std::uint64_t kMcapHeadSize = 9;
-/// Bytes of the content of a message before what was published.
+/// Bytes of the content of a message before the published data.
 inline constexpr std::uint64_t kMcapMessageHeadSize = 22;
 /// Bytes of a whole footer with the magic behind it.
 inline constexpr std::uint64_t kMcapEndSize = kMcapHeadSize + 20 + 8;
 
-/// What a record is. Numbers that are not here are passed over; 0 is none at all.
+/// The type of a record. Unknown numbers are skipped; 0 is invalid.
 enum class McapOp : std::uint8_t {
   kInvalid = 0x00,
   kHeader = 0x01,
@@ -80,7 +80,7 @@ struct McapChunkHead {
   std::uint64_t unpacked_size = 0;
   std::uint32_t crc = 0;  ///< 0 is none.
   std::string compression;
-  std::uint64_t packed_at = 0;  ///< Where in the content the packed records begin.
+  std::uint64_t packed_at = 0;  ///< Where in the content the compressed records begin.
   std::uint64_t packed_size = 0;
 };
 
@@ -95,7 +95,7 @@ McapMessageHead read_mcap_message(std::string_view content, const std::string& w
 McapChunkHead read_mcap_chunk(std::string_view content, const std::string& where);
 McapChunkIndex read_mcap_chunk_index(std::string_view content, const std::string& where);
 
-/// A record among others: where it begins, and what it holds.
+/// A record in a buffer: its place and its content.
 struct McapRecord {
   McapOp op = McapOp::kInvalid;
   std::size_t begin = 0;
@@ -103,11 +103,11 @@ struct McapRecord {
 };
 
 /// Calls `call` with each record of `records`, in order.
-/// @return what is wrong with the record at which it stopped; empty if all were whole
+/// @return the problem of the record at which it stopped; empty if all are whole
 std::string for_each_record(std::string_view records,
                             const std::function<void(const McapRecord&)>& call);
 
-/// A record that stands in a file.
+/// A record in a file.
 struct McapPlace {
   McapOp op = McapOp::kInvalid;
   std::uint64_t begin = 0;  ///< Of the record.
@@ -116,38 +116,38 @@ struct McapPlace {
   [[nodiscard]] std::uint64_t end() const { return content() + size; }
 };
 
-/// A chunk of a file, its records still packed.
+/// A chunk of a file, its records still compressed.
 struct McapChunkPlace {
   McapChunkHead head;
-  std::uint64_t packed = 0;  ///< Where the packed records begin in the file.
+  std::uint64_t packed = 0;  ///< Where the compressed records begin in the file.
   std::string where;         ///< "drive.mcap: byte 4,117: chunk".
 };
 
-/// A MCAP file: what stands where in it.
+/// A MCAP file: its records and their places.
 class McapFile {
  public:
   /// @throws DataError if it does not begin as MCAP does
   explicit McapFile(const std::filesystem::path& path);
   [[nodiscard]] const BagFile& bytes() const { return bytes_; }
 
-  /// The record at `offset`, whose content may be cut.
+  /// The record at `offset`, whose content may be truncated.
   /// @throws DataError if the file ends within its head, or for an op of 0
   [[nodiscard]] McapPlace record(std::uint64_t offset) const;
   /// Whether the file has the whole record.
   [[nodiscard]] bool is_whole(const McapPlace& record) const;
-  /// What a record holds from byte `skip` on, at most `most` bytes of it.
+  /// The content of a record from byte `skip` on, at most `most` bytes.
   /// @param skip at most the record's size
-  /// @throws DataError if that is cut, or the record larger than 1 GiB
+  /// @throws DataError if the content is truncated, or the record is larger than 1 GiB
   [[nodiscard]] std::string content(
       const McapPlace& record, std::uint64_t skip = 0,
       std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
-  /// The beginning of what it holds.
+  /// The beginning of its content.
   [[nodiscard]] std::string beginning(const McapPlace& record, std::uint64_t most) const;
 
   /// @throws DataError if its head is damaged or its compression is unknown
   [[nodiscard]] McapChunkPlace chunk(const McapPlace& record) const;
-  /// The records in a chunk. What is wrong with them is told in the answer, with what can be had.
-  /// @throws DataError if it is said to have more than is allowed (see `check_unpacked_size`)
+  /// The records in a chunk. The result has the records that can be decompressed, and the problem.
+  /// @throws DataError if the stated size is beyond the limit (see `check_unpacked_size`)
   [[nodiscard]] Unpacked unpack(const McapChunkPlace& chunk) const;
 
   /// "drive.mcap: byte 4,117: chunk", to begin messages.

@@ -9,7 +9,7 @@
 namespace raymoval {
 namespace {
 
-/// Bytes of what stands before a CDR body: two that name its kind, two with options.
+/// Bytes before a CDR body: two for its kind, two for options.
 constexpr std::size_t kCdrHead = 4;
 
 }  // namespace
@@ -44,7 +44,7 @@ std::size_t MessageReader::aligned_position(std::size_t size) const {
 }
 
 std::string_view MessageReader::take(std::size_t size, const char* field) {
-  // What padding skips may lie behind the end already.
+  // Padding may end behind the end of the message.
   const std::size_t left = bytes_.size() - std::min(position_, bytes_.size());
   if (position_ > bytes_.size() || size > left) {
     fail("its " + std::string(field) + " takes " + counted_text(size, "byte") + " from byte " +

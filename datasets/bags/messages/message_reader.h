@@ -12,10 +12,10 @@
 
 namespace raymoval {
 
-/// Reads the fields of a message one after another, in the order of its definition: ROS 1
-/// serialisation, or CDR of either byte order, whose numbers stand at multiples of their size from
-/// the end of the four bytes of its head on. Every reading is checked against the bytes that are
-/// there; an error names the message, the field and the byte.
+/// Reads the fields of a message one after another, in the order of its definition. The encoding is
+/// ROS 1 serialisation, or CDR of either byte order. CDR aligns numbers to multiples of their size,
+/// counted from the end of its head of four bytes. A read beyond the end is an error that names the
+/// message, the field and the byte.
 class MessageReader {
  public:
   /// @param where begins messages: "drive.bag: /points, message 12"
@@ -36,15 +36,15 @@ class MessageReader {
   }
   /// The next text.
   std::string text(const char* field);
-  /// The length of the sequence that follows. @param least bytes that an element takes at least
+  /// The length of the sequence that follows. @param least smallest size of an element, bytes
   std::uint32_t count(const char* field, std::size_t least);
-  /// The next `size` bytes as they are.
+  /// The next `size` bytes, unchanged.
   std::string_view take(std::size_t size, const char* field);
   void skip(std::size_t size, const char* field) { take(size, field); }
 
-  /// Byte of the message that is read next.
+  /// The next byte to read.
   [[nodiscard]] std::size_t position() const { return position_; }
-  /// Byte at which the next number of `size` bytes stands.
+  /// The byte at which the next number of `size` bytes begins.
   [[nodiscard]] std::size_t aligned_position(std::size_t size) const;
   void align(std::size_t size) { position_ = aligned_position(size); }
   [[nodiscard]] std::string_view bytes() const { return bytes_; }
@@ -60,15 +60,15 @@ class MessageReader {
   bool is_cdr_ = false, big_endian_ = false;
 };
 
-/// What a std_msgs/Header says.
+/// A std_msgs/Header.
 struct MessageHeader {
   Nanoseconds stamp = 0;
   std::string frame_id;
 };
 MessageHeader read_message_header(MessageReader& reader);
 
-/// So many bytes of a message hold its header and the numbers behind it, except with names of
-/// frames that are longer than anybody's.
+/// Number of bytes that hold the header of a message and the numbers behind it, for frame names of
+/// any usual length.
 inline constexpr std::size_t kHeaderBytes = 1024;
 
 }  // namespace raymoval

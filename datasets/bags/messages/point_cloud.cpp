@@ -25,15 +25,15 @@ bool is_point_cloud(const std::string& type) {
   return type == "sensor_msgs/PointCloud2";
 }
 
-/// The message that Livox's drivers publish points in.
+/// Whether `type` is the message in which Livox's drivers publish points.
 bool is_livox(const std::string& type) {
   return type == "livox_ros_driver/CustomMsg" || type == "livox_ros_driver2/CustomMsg";
 }
 
-/// What a message with points says of them. Positions are bytes of the message.
+/// The description of the points in a message. Positions are bytes of the message.
 struct PointsMessage {
   MessageHeader header;
-  RecordLayout layout;   ///< Of a point as the message lays it out.
+  RecordLayout layout;   ///< Of a point in the message.
   bool swapped = false;  ///< Whether the numbers of the points are big-endian.
   std::uint32_t width = 0, height = 0;
   std::uint64_t row_step = 0;    ///< Bytes from a row to the next.
@@ -71,7 +71,7 @@ void check_size(std::uint64_t points, const MessageReader& reader) {
               ". The message is damaged or holds a whole map: choose a --topic with scans.");
 }
 
-/// Without this a small message could announce many points that share their bytes.
+/// Refuses points that share their bytes: a small message could announce very many of them.
 void check_overlaps(const PointsMessage& cloud, const MessageReader& reader) {
   constexpr std::uint64_t kMostUses = 4;  // Drivers name a colour twice, as rgb and rgba.
   std::uint64_t bytes = 0;
@@ -102,8 +102,8 @@ void check_fields(const PointsMessage& cloud, const MessageReader& reader) {
   check_overlaps(cloud, reader);
 }
 
-/// Takes what stands in the data for its layout. `row_step` matters only where there are several
-/// rows, and drivers leave it 0 or wrong otherwise.
+/// Corrects the layout by the size of the data. `row_step` matters only with several rows; with one
+/// row, some drivers write 0 or a wrong value.
 void check_data(PointsMessage& cloud, std::uint64_t data_bytes, const MessageReader& reader) {
   const std::uint64_t row = cloud.width * cloud.point_step;
   if (cloud.height <= 1 || cloud.row_step < row) cloud.row_step = row;
@@ -122,7 +122,7 @@ void check_data(PointsMessage& cloud, std::uint64_t data_bytes, const MessageRea
               "; the message is truncated or contradicts itself.");
 }
 
-/// What a PointCloud2 says before its data.
+/// The fields of a PointCloud2 before its data.
 PointsMessage parse_cloud_head(MessageReader& reader) {
   // A field has a name with its length, an offset, a type and a count.
   constexpr std::size_t kLeastField = 13;
@@ -166,7 +166,7 @@ PointsMessage parse_livox(MessageReader& reader) {
   reader.number<std::uint64_t>("timebase");
   reader.number<std::uint32_t>("point_num");
   reader.skip(4, "lidar_id and rsvd");
-  // How many points there are is the length of the sequence; `point_num` only repeats it.
+  // The length of the sequence is the number of points; `point_num` only repeats it.
   const std::uint32_t count = reader.count("points", kPointBytes);
   check_size(count, reader);
   cloud.layout = livox_layout();
@@ -188,9 +188,9 @@ PointsMessage parse_points(MessageReader& reader, const std::string& type) {
                    ", which has no points; expected sensor_msgs/PointCloud2 or a Livox CustomMsg.");
 }
 
-/// Where the values of the points stand.
+/// The places of the values of the points.
 /// @param bytes the message
-/// @param packed is filled with the rows of the cloud, if padding stands between them
+/// @param packed is filled with the rows of the cloud, if there is padding between them
 StoredPoints stored_points(const PointsMessage& cloud, std::string_view bytes,
                            std::string& packed) {
   StoredPoints stored{bytes.substr(cloud.points_begin), {}, cloud.size(), cloud.layout.row_bytes};

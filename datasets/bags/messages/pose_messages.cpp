@@ -14,9 +14,9 @@ namespace {
 /// How the messages of a type hold their poses.
 struct Kind {
   const char* type;
-  bool many;       ///< A sequence of stamped ones.
-  bool of_header;  ///< A header stands before the sequence, or before the pose.
-  bool has_child;  ///< Behind each header stands child_frame_id.
+  bool many;       ///< A sequence of stamped poses.
+  bool of_header;  ///< A header precedes the sequence or the pose.
+  bool has_child;  ///< child_frame_id follows each header.
 };
 
 constexpr std::array kKinds = {Kind{"nav_msgs/Odometry", false, true, true},
@@ -34,7 +34,7 @@ const Kind* kind_of(const std::string& type) {
   return nullptr;
 }
 
-/// A position and a quaternion x y z w, which poses and transforms write alike.
+/// A position and a quaternion x y z w: the form of poses and of transforms.
 void read_motion(MessageReader& reader, PoseMessage& pose) {
   for (int i = 0; i < 3; ++i) pose.position[i] = reader.number<double>("position");
   for (int i = 0; i < 4; ++i) pose.attitude.coeffs()[i] = reader.number<double>("orientation");

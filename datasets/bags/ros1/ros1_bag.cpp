@@ -19,7 +19,7 @@ constexpr std::uint64_t kEntryBytes = 12;
 constexpr std::uint64_t kCountBytes = 8;
 constexpr std::uint32_t kIndexVersion = 1;
 
-/// Adds what is found to the contents, and says what could not be read.
+/// Fills the contents and reports unreadable parts.
 class Ros1Reader {
  public:
   Ros1Reader(const BagFile& file, DamageNotes& notes)
@@ -70,8 +70,7 @@ class Ros1Reader {
                topic.name + " and of " + connection.topic + "; the first is used.");
   }
 
-  /// Takes all messages from the index. @return why they have to be looked for without it; else
-  /// empty
+  /// Takes all messages from the index. @return why the index cannot be used; empty if it can
   std::string index_problem() {
     if (index_begin_ == 0) return "the bag was never closed and has no index.";
     if (index_begin_ > file_.size()) {
@@ -118,7 +117,7 @@ class Ros1Reader {
     }
   }
 
-  /// Chunks do not overlap, so all of them together take a time that grows with the file.
+  /// Chunks do not overlap, so the time is linear in the size of the file.
   /// @param end where the next chunk or the index begins
   void read_indexed_chunk(std::uint64_t begin, std::uint64_t messages, std::uint64_t end) {
     const Ros1Record record = read_record(bytes_, begin);
@@ -159,7 +158,7 @@ class Ros1Reader {
     return count;
   }
 
-  /// Behind damage it goes on with the next chunk that the index knows.
+  /// Behind damage, reading continues at the next chunk of the index.
   void read_front_to_back() {
     for (std::uint64_t at = header_end_; at < file_.size();) {
       const std::string damage = damage_in([&] { at = read_next(at); });
@@ -214,8 +213,8 @@ class Ros1Reader {
   }
 
   /// @param bytes of the last chunk
-  /// @param problem gets what is wrong where reading ended
-  /// @return how many messages it has
+  /// @param problem gets the problem at which reading ended
+  /// @return number of messages
   std::uint64_t walk_bytes(const Ros1Bytes& bytes, std::string& problem) {
     std::uint64_t count = 0, at = 0;
     std::optional<Ros1Record> found;
@@ -225,7 +224,7 @@ class Ros1Reader {
         if (connection) add_connection(*connection);
         continue;
       }
-      // A small file that unpacks to very many small messages would fill the memory.
+      // A small file that decompresses to very many small messages would fill the memory.
       if (contents_.messages.size() > file_.size()) {
         throw DataError(found->where +
                         ": the bag decompresses to more messages than it has bytes.");
@@ -254,7 +253,7 @@ class Ros1Reader {
   Ros1Bytes bytes_;
   DamageNotes& notes_;
   std::uint64_t index_begin_ = 0, header_end_ = 0;
-  std::uint32_t connections_ = 0, chunks_ = 0;     ///< As the bag's own record says.
+  std::uint32_t connections_ = 0, chunks_ = 0;     ///< Of the bag's header record.
   std::map<std::uint64_t, std::uint64_t> places_;  ///< Where chunks begin, and their messages.
   Ros1Contents contents_;
 };
@@ -290,7 +289,7 @@ std::string Ros1Bag::read_message(std::size_t topic, std::size_t index, std::siz
 std::string Ros1Bag::read_from(const Ros1Bytes& chunk, std::uint64_t offset, std::size_t topic,
                                std::size_t most) const {
   const std::string where = chunk.place(offset);
-  // Some writers point to the connection that stands before a message.
+  // Some writers point to the connection before a message.
   auto found = next_in_chunk(chunk, offset);
   while (found && found->op() == Ros1Op::kConnection) found = next_in_chunk(chunk, offset);
   if (!found) {

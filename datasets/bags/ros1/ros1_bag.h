@@ -16,15 +16,15 @@
 
 namespace raymoval {
 
-/// What a ROS 1 bag holds, without its messages.
+/// The contents of a ROS 1 bag, without its messages.
 struct Ros1Contents {
   std::map<std::uint32_t, std::size_t> topics;  ///< Topic in `messages` of each connection.
   std::vector<Ros1Chunk> chunks;                ///< In the order of the file.
   MessageTable messages;                        ///< Places are those of `message_place`.
 };
 
-/// A message's chunk and its byte there in one number, which grows along the file. A chunk unpacks
-/// to less than 4 GiB, for its size has 32 bits.
+/// A message's chunk and its byte there in one number, which increases along the file. A chunk
+/// decompresses to less than 4 GiB because its size has 32 bits.
 constexpr std::uint64_t message_place(std::size_t chunk, std::uint64_t offset) {
   return (static_cast<std::uint64_t>(chunk) << 32U) | offset;
 }
@@ -35,16 +35,16 @@ constexpr std::uint64_t offset_of(std::uint64_t place) {
   return place & 0xFFFFFFFFU;
 }
 
-/// Reads what is in a bag. From its index, if that is whole and fits what it points to; else chunk
-/// by chunk from front to back, as far as the file goes.
-/// @param notes gets what could not be read
+/// Reads the contents of a bag. If its index is whole and fits the chunks, it is used. Else the
+/// chunks are read from front to back up to the end of the file.
+/// @param notes gets sentences on unreadable parts
 /// @throws DataError if the file is no ROS 1 bag of version 2.0, or encrypted; UnreadableError if
 ///   the disk fails
 Ros1Contents read_contents(const BagFile& file, DamageNotes& notes);
 
-/// A ROS 1 bag of version 2.0, not packed or packed by bz2 or lz4. Its index is used where it is
-/// whole; a bag that was cut or never closed is read from front to back when it is opened. 16 bytes
-/// a message are in memory, and the chunks that were unpacked last.
+/// A ROS 1 bag of version 2.0, not compressed or compressed by bz2 or lz4. A whole index is used; a
+/// bag that was truncated or never closed is read from front to back when it is opened. Memory
+/// holds 16 bytes per message and the chunks that were decompressed last.
 class Ros1Bag : public Bag {
  public:
   /// @throws DataError as `read_contents`; UnreadableError if the disk fails

@@ -10,12 +10,12 @@
 namespace raymoval {
 namespace {
 
-/// The most that a header has. A connection's definition of its type stands in its data.
+/// Largest size of a header, bytes. The type definition of a connection is in its data.
 constexpr std::uint32_t kLongestHeader = 1U << 20U;
-/// The most that a connection's data has: the definition of its type, a few KiB.
+/// Largest size of a connection's data, bytes: its type definition, usually a few KiB.
 constexpr std::uint32_t kLongestConnection = 1U << 24U;
 constexpr std::uint64_t kLength = sizeof(std::uint32_t);
-/// Most headers are shorter than this, so one reading gives a header and both lengths.
+/// Most headers are shorter than this, so one read gives a header and both lengths.
 constexpr std::uint64_t kFirstPiece = 128;
 
 constexpr std::array<std::string_view, 3> kCompressionNames = {"none", "bz2", "lz4"};
@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 3> kCompressionNames = {"none", "bz2", "l
                   grouped_text(there) + " are left; the file is truncated or damaged there.");
 }
 
-/// The bytes of the field `name`; nothing if there is none.
+/// The bytes of the field `name`; empty if there is none.
 /// @throws DataError beginning with `where` if a length does not fit or a field has no name
 std::optional<std::string> find_field(std::string_view header, std::string_view name,
                                       const std::string& where) {
@@ -50,14 +50,14 @@ std::optional<std::string> find_field(std::string_view header, std::string_view 
   return found;
 }
 
-/// The same of a field that has to be there.
+/// The bytes of a required field.
 std::string text_field(std::string_view header, std::string_view name, const std::string& where) {
   if (auto found = find_field(header, name, where)) return *std::move(found);
   throw DataError(where + ": the header has no field '" + std::string(name) +
                   "'; the file looks damaged.");
 }
 
-/// The same of a field of `size` bytes.
+/// The bytes of a required field of `size` bytes.
 std::string sized_field(const Ros1Record& record, std::string_view name, std::size_t size) {
   std::string text = record.text(name);
   if (text.size() == size) return text;
@@ -188,8 +188,8 @@ Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record) {
 
 Unpacked unpack_chunk(const BagFile& file, const Ros1Chunk& chunk) {
   const std::string packed = file.read(chunk.data_begin, chunk.packed);
-  // What the whole chunk may unpack to was checked when its head was read; of a cut one less is
-  // there, which the limit counts.
+  // The limit of the whole chunk was checked with its head; a truncated chunk has fewer bytes and a
+  // lower limit.
   const std::uint64_t most =
       chunk.cut ? std::min<std::uint64_t>(chunk.size, most_unpacked_size(packed.size()))
                 : chunk.size;

@@ -14,8 +14,8 @@ namespace raymoval {
 namespace {
 
 constexpr int kStepsAtOnce = 1000;
-/// What reading the list of tables takes at most, at ten steps a table: its time grows with the
-/// square of their number, and recordings have fewer than ten.
+/// Largest number of steps to read the list of tables, at ten steps a table. The time grows with
+/// the square of the number of tables, and recordings have fewer than ten.
 constexpr std::int64_t kStepsOfSchema = 10'000;
 constexpr std::int64_t kMostValueBytes = std::int64_t{1} << 30;
 
@@ -25,7 +25,7 @@ int count_steps(void* left) {
   return *steps < 0 ? 1 : 0;
 }
 
-/// "file:..." of a path that is only read, in which three characters have another meaning.
+/// "file:..." of a path, read-only. Three characters have another meaning there and are escaped.
 std::string uri_of(const std::filesystem::path& path) {
   std::string uri = "file:";
   for (const char letter : std::filesystem::absolute(path).string()) {
@@ -64,7 +64,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, bool is_cut)
                                            static_cast<std::int64_t>(plain_file_size(path)) + 1024);
   sqlite3_limit(handle(), SQLITE_LIMIT_LENGTH, static_cast<int>(most));
   run("PRAGMA cell_size_check=ON");
-  // So the library opens what has fewer pages than it says. Nothing is written in any case.
+  // With this, the library opens a truncated file. Nothing is written in any case.
   if (is_cut) run("PRAGMA writable_schema=ON");
 }
 
@@ -78,7 +78,7 @@ void SqliteDatabase::fail(int code) const {
   const int kind = code & 0xFF;
   const std::string reason = handle_ ? sqlite3_errmsg(handle()) : sqlite3_errstr(code);
   if (kind == SQLITE_NOMEM) {
-    // The library says so of damaged schemas as well, and it asks for little otherwise.
+    // The library reports this for damaged schemas as well; it needs little memory otherwise.
     throw DataError(path_.string() +
                     ": there is not enough memory to read it. If the machine has memory left, the "
                     "database is damaged: copy it again.");
@@ -143,7 +143,7 @@ std::uint64_t big_endian(std::string_view bytes) {
   return number;
 }
 
-/// What SQLite keeps beside a database while it is written.
+/// Refuses a database with a journal or a write-ahead log of unfinished writes.
 void check_nothing_beside(const std::filesystem::path& path) {
   const std::string remedy =
       " belongs to it and holds data that is not in it yet: the recorder was stopped in the "
@@ -160,7 +160,7 @@ void check_nothing_beside(const std::filesystem::path& path) {
   }
 }
 
-/// Looks at the head of a database. @return whether it has fewer pages than it says
+/// Reads the head of a database. @return whether the file has fewer pages than the head states
 bool is_cut(const BagFile& file, DamageNotes& damage) {
   const std::string head = file.read_up_to(0, 100);
   if (!head.starts_with(kMagic) || head.size() < 100) {
@@ -218,7 +218,7 @@ void Db3Bag::read_topics() {
 }
 
 void Db3Bag::read_messages() {
-  // No index is used, for in a cut file it may be what is missing.
+  // No index is used because it may be missing in a truncated file.
   SqliteStatement rows(database_,
                        "SELECT rowid, topic_id, timestamp, CASE typeof(data) WHEN 'blob' THEN "
                        "length(data) ELSE -1 END FROM messages NOT INDEXED");
@@ -274,7 +274,7 @@ std::string Db3Bag::message(std::size_t topic, std::size_t index) const {
 }
 
 std::string Db3Bag::message_head(std::size_t topic, std::size_t index, std::size_t most) const {
-  // Of a cut file a message may be there with its beginning only, which has to show now.
+  // In a truncated file, a message may have only its beginning. Reading all of it detects that now.
   if (!damage_.empty()) return Bag::message_head(topic, index, most);
   std::string head = stored(static_cast<std::int64_t>(table_.at(topic, index).place), most);
   return is_zstd(head) ? Bag::message_head(topic, index, most) : head;

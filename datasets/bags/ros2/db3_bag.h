@@ -19,22 +19,22 @@
 
 namespace raymoval {
 
-/// A database of SQLite, which nothing else uses at the same time. Errors are DataError for what is
-/// wrong in the file, and UnreadableError for a disk that fails.
+/// A SQLite database for a single user at a time. Errors are DataError for a damaged file and
+/// UnreadableError for a disk that fails.
 class SqliteDatabase {
  public:
   /// Opens a file to read it, and neither locks nor changes it.
-  /// @param is_cut whether the file has fewer pages than it says, so that some cannot be read
+  /// @param is_cut whether the file has fewer pages than its head states
   SqliteDatabase(const std::filesystem::path& path, bool is_cut);
   SqliteDatabase(const SqliteDatabase&) = delete;
 
   [[nodiscard]] sqlite3* handle() const { return handle_.get(); }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   void run(const std::string& sql) const;
-  /// How many steps the next statements may take in all; what takes more is an error, for a
-  /// database can be built so that it never ends.
+  /// Limits the steps of the next statements in all. More steps are an error, because a malicious
+  /// database could take forever.
   void allow_steps(std::int64_t steps) const { steps_ = steps; }
-  /// @param code the library's. @throws what it stands for
+  /// @param code of SQLite @throws the matching error
   [[noreturn]] void fail(int code) const;
 
  private:
@@ -42,7 +42,7 @@ class SqliteDatabase {
     void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
   };
   std::filesystem::path path_;
-  mutable std::int64_t steps_ = 0;  ///< Left of those that are allowed.
+  mutable std::int64_t steps_ = 0;  ///< Steps that are left.
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
@@ -51,7 +51,7 @@ class SqliteStatement {
  public:
   /// @throws DataError, also if there is more than one statement in `sql`
   SqliteStatement(const SqliteDatabase& database, std::string_view sql);
-  /// Goes to the next row. @return whether there is one
+  /// Moves to the next row. @return whether there is one
   bool step();
   [[nodiscard]] std::int64_t number(int column) const {
     return sqlite3_column_int64(handle_.get(), column);
@@ -66,11 +66,11 @@ class SqliteStatement {
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
 };
 
-/// A recording in a database of SQLite, as rosbag2 writes it (.db3).
+/// A recording in a SQLite database of rosbag2 (.db3).
 class Db3Bag : public Bag {
  public:
-  /// @throws DataError if it is no database or has not the tables of rosbag2, or if a journal or a
-  ///   write-ahead log beside it has what it lacks; UnreadableError
+  /// @throws DataError if it is no database, lacks the tables of rosbag2, or has a journal or a
+  ///   write-ahead log of unfinished writes beside it; UnreadableError
   explicit Db3Bag(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& path() const override { return file_.path(); }
@@ -89,11 +89,11 @@ class Db3Bag : public Bag {
   void read_messages();
   /// "drive_0.db3: message 17", to begin messages.
   [[nodiscard]] std::string place(std::int64_t row) const;
-  /// The first `most` bytes in the row of a message, packed or not. @throws as `message`
+  /// The first `most` bytes in the row of a message, compressed or not. @throws as `message`
   [[nodiscard]] std::string stored(
       std::int64_t row, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
-  BagFile file_;  ///< Held so that the file stays what it is while it is read.
+  BagFile file_;  ///< Held open so that the file is not replaced while it is read.
   DamageNotes damage_;
   SqliteDatabase database_;
   std::map<std::int64_t, std::size_t> topics_;

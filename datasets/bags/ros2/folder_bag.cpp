@@ -32,7 +32,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The value of a key as a text; empty if there is none, or if it is a list or a map.
+/// The value of a key as text; empty if it is missing, a list or a map.
 std::string value_of(const YAML::Node& node, const char* key) {
   const YAML::Node found = node[key];
   return found && found.IsScalar() ? found.Scalar() : "";
@@ -52,14 +52,14 @@ std::optional<std::uint64_t> count_of(const YAML::Node& node, const fs::path& pa
                   "', expected a number of messages.");
 }
 
-/// A path that leads nowhere but to a file in the folder.
+/// Whether a path leads to a file in the folder.
 bool stays_inside(const fs::path& listed) {
   return listed.is_relative() && !listed.empty() &&
          std::find(listed.begin(), listed.end(), "..") == listed.end();
 }
 
-/// Where a listed file may stand, the likeliest first. A folder that was renamed or moved has its
-/// files still, whatever is listed.
+/// Possible paths of a listed file, the likeliest first. A folder may have been renamed or moved
+/// since metadata.yaml was written.
 std::vector<fs::path> candidates(const fs::path& folder, const fs::path& listed, int version) {
   std::vector<fs::path> places;
   if (stays_inside(listed)) {
@@ -70,7 +70,7 @@ std::vector<fs::path> candidates(const fs::path& folder, const fs::path& listed,
     places.push_back(folder / listed);
   }
   places.push_back(folder / listed.filename());
-  // A file may have been packed or unpacked by hand.
+  // A file may have been compressed or decompressed by hand.
   for (const fs::path& place : std::vector<fs::path>(places)) {
     places.push_back(place.string() + ".zstd");
     places.push_back(without_zstd_ending(place));
@@ -99,7 +99,7 @@ void add_file(Ros2Metadata& metadata, const YAML::Node& node, std::set<fs::path>
   }
 }
 
-/// @throws UsageError for a packing that is not read
+/// @throws UsageError for a compression that is not supported
 void check_packing(const YAML::Node& information, const fs::path& path) {
   const std::string mode = lower(value_of(information, "compression_mode"));
   const std::string format = lower(value_of(information, "compression_format"));
@@ -114,7 +114,7 @@ void check_packing(const YAML::Node& information, const fs::path& path) {
       "', which is not read; expected FILE or MESSAGE. `ros2 bag convert` rewrites the recording.");
 }
 
-/// Says of each listed file how many messages it should have.
+/// Sets the stated number of messages of each listed file.
 void add_counts(Ros2Metadata& metadata, const YAML::Node& information) {
   std::map<std::string, std::optional<std::uint64_t>> counts;
   for (const YAML::Node& node : information["files"]) {
@@ -184,7 +184,7 @@ Ros2Metadata read_ros2_metadata(const fs::path& folder) {
 
 namespace {
 
-/// A message's place is the number of its part, and its own in its topic there.
+/// A message's place is the number of its part and its number in its topic there.
 constexpr unsigned kIndexBits = 44;
 constexpr std::size_t kMostParts = std::size_t{1} << (63 - kIndexBits);
 

@@ -16,37 +16,37 @@ namespace raymoval {
 
 /// A file of a recording as metadata.yaml lists it.
 struct Ros2File {
-  std::string listed;          ///< As it is written there.
+  std::string listed;          ///< As written there.
   std::filesystem::path path;  ///< Where it is, in the recording's folder.
   bool is_there = false;
-  std::optional<std::uint64_t> messages;  ///< That it should have, if that is said.
+  std::optional<std::uint64_t> messages;  ///< The stated number, if there is one.
 };
 
-/// What metadata.yaml says of a folder, versions 1 to 9.
+/// The content of metadata.yaml, versions 1 to 9.
 struct Ros2Metadata {
   std::filesystem::path path;
   int version = 0;
   std::optional<std::uint64_t> messages;
   std::vector<Ros2File> files;     ///< In order, each once.
-  std::vector<std::string> twice;  ///< Those that are listed more than once.
+  std::vector<std::string> twice;  ///< Files that are listed more than once.
 };
 
-/// @throws DataError naming the line that is wrong; UsageError for a storage or a packing that is
-///   not read; UnreadableError
+/// @throws DataError naming the line that is wrong; UsageError for a storage or a compression that
+///   is not supported; UnreadableError
 Ros2Metadata read_ros2_metadata(const std::filesystem::path& folder);
 
 /// The files of a folder without metadata.yaml that are parts of one recording: NAME_0.db3,
 /// NAME_1.db3 and so on (or .mcap), in this order. None if there are others, scans or folders.
 std::vector<std::filesystem::path> split_recording(const std::filesystem::path& folder);
 
-/// A recording of ROS 2 in a folder with metadata.yaml, or without it as `split_recording`: one
-/// file or several, which are one recording. Its index takes 32 bytes a message.
+/// A recording of ROS 2 in one file or several, in a folder with metadata.yaml, or without it as
+/// `split_recording`. Its index takes 32 bytes per message.
 class Ros2FolderBag : public Bag {
  public:
   /// Opens a file of the folder.
   using Open = std::function<std::unique_ptr<Bag>(const std::filesystem::path&)>;
   /// @throws DataError if metadata.yaml is damaged or none of its files is there; UsageError for a
-  ///   form that is not read; UnreadableError
+  ///   format that is not supported; UnreadableError
   Ros2FolderBag(std::filesystem::path folder, const Open& open);
 
   [[nodiscard]] const std::filesystem::path& path() const override { return folder_; }
@@ -64,7 +64,7 @@ class Ros2FolderBag : public Bag {
   struct Part {
     std::size_t file = 0;  ///< In `metadata().files`.
     std::unique_ptr<Bag> bag;
-    std::vector<std::size_t> topics;  ///< The number here of each of its topics.
+    std::vector<std::size_t> topics;  ///< Number in `topics()` of each topic of the part.
   };
   /// A message in the file that holds it.
   struct Found {

@@ -18,8 +18,8 @@ namespace raymoval {
 /// Points as a file stores them, non-finite ones included.
 struct Cloud {
   std::vector<Eigen::Vector3f> points;
-  /// The strength of each return: the field with one of `intensity_names`. As long as `points`, or
-  /// empty if the file has no such field with one value a point.
+  /// The intensity of each return: the field with one of `intensity_names`. As long as `points`, or
+  /// empty if the file has no such field with one value per point.
   std::vector<float> intensity;
 };
 
@@ -27,35 +27,34 @@ struct Cloud {
 inline constexpr const char* kRereadRemedy =
     " Copy it again, or leave it out with --skip-bad-scans.";
 
-/// What a file does not say of itself.
+/// Facts that a file does not state.
 struct RecordReading {
   /// Fields of a .bin file or the columns of an .npy array, such as "x y z intensity t:f8" (float32
   /// where no type is given), see `parse_point_layout`.
   std::optional<std::string> point_layout = std::nullopt;
 };
 
-/// A real intensity that a file also has as a whole number from 0 to 65,535, for viewers.
+/// A real intensity that a file also stores as a whole number from 0 to 65,535, for viewers.
 struct ShownIntensity {
   PointField field;
-  std::string exact;  ///< The name of the field of the file that has the value as it is.
+  std::string exact;  ///< The field of the file with the exact value.
 };
 
-/// How a file of point records is to be written.
+/// Options for writing a file of point records.
 struct RecordWriting {
-  /// LAS: what a real intensity is multiplied by for the whole number from 0 to 65535 that viewers
-  /// show. The exact value stands beside it.
+  /// LAS: factor from a real intensity to the whole number from 0 to 65,535 that viewers show. The
+  /// exact value is stored beside it.
   double intensity_scale = 1.0;
 };
 
-/// The content of a file of points, unpacked.
+/// The content of a file of points, decompressed.
 struct CloudBytes {
   const std::filesystem::path& path;  ///< For messages.
   std::string_view text;
   const RecordReading& reading;
 };
 
-/// How the points of a file that is written are organised: as the one piece they come in, if they
-/// do.
+/// Width and height of a written file: those of its piece if there is only one.
 class WrittenShape {
  public:
   void add(const PointRecords& rows) {
@@ -74,24 +73,24 @@ class WrittenShape {
   std::uint64_t pieces_ = 0, width_ = 0, height_ = 1;
 };
 
-/// Makes the bytes of a file of one format of rows of points. A file is its head and, behind that,
-/// what `rows` gives of each piece.
+/// Encodes rows of points in one format. A file is its head, followed by the result of `rows` for
+/// each piece.
 class RecordEncoder {
  public:
   virtual ~RecordEncoder() = default;
-  /// @param first rows that the file begins with, perhaps none, with the layout of all rows
+  /// @param first the first rows of the file, perhaps none, with the layout of all rows
   virtual void start(const PointRecords& first) = 0;
   /// The head of a file of `points` points. It has the same length for any count.
   [[nodiscard]] virtual std::string head(std::uint64_t points) const = 0;
-  /// The bytes of more rows: as they are, unless the format has another form for them.
+  /// The bytes of more rows: a copy, unless the format encodes them otherwise.
   /// @throws DataError for a value that the format cannot hold
   virtual std::string rows(const PointRecords& more) {
     return {reinterpret_cast<const char*>(more.bytes.data()), more.bytes.size()};
   }
 };
 
-/// A kind of file that points are read from and written to. Each stands in a file of its own and is
-/// listed in datasets/clouds/cloud_file.cpp.
+/// A file format of points. Each format has its own source file and is listed in
+/// datasets/clouds/cloud_file.cpp.
 struct CloudFormat {
   std::string extension;  ///< ".pcd".
   Cloud (*read_cloud)(const CloudBytes& file, const Eigen::Vector3d& origin) = nullptr;
@@ -101,30 +100,30 @@ struct CloudFormat {
                                             const RecordWriting& writing) = nullptr;
   /// As `what_is_lost`; null if the format is only read.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
-  /// The layout of the records of a file without reading its points; null if it takes as much.
+  /// The layout of the records of a file without reading its points; null if that is no faster.
   RecordLayout (*read_layout)(const std::filesystem::path& path,
                               const RecordReading& reading) = nullptr;
-  /// As `shown_intensity`; null if the format shows no values otherwise than they are.
+  /// As `shown_intensity`; null if the format stores exact values only.
   std::optional<ShownIntensity> (*shown_intensity)(const RecordLayout& layout) = nullptr;
 };
 
 /// PCD 0.7: ascii, binary and binary_compressed are read, binary is written. Padding (fields "_")
-/// stands in records as bytes between fields, and such bytes are written as padding. VIEWPOINT is
-/// written if all rows have the same; WIDTH and HEIGHT are those of an organised cloud that is
-/// given in one piece.
+/// becomes bytes between the fields of a record, and such bytes are written as padding. VIEWPOINT
+/// is written if all rows have the same. WIDTH and HEIGHT are kept if an organised cloud is written
+/// in one piece.
 CloudFormat pcd_format();
 
 /// PLY 1.0: ascii and binary of either endianness are read, binary little-endian is written. Other
 /// elements, before and after the vertices, are skipped.
 CloudFormat ply_format();
 
-/// Rows of numbers without a head, little-endian: x y z intensity as float32, or what the reader is
-/// told. Rows are written as they are.
+/// Rows of numbers without a head, little-endian: x y z intensity as float32, or the given point
+/// layout. Rows are written unchanged.
 CloudFormat bin_format();
 
 /// LAS 1.0 to 1.4 with the point formats 0 to 10; LAS 1.4 with the formats 6 to 8 is written (see
 /// las_encoder.h). Coordinates are float64 fields x, y and z in metres, values of a few bits are
-/// uint8 fields, and extra bytes are fields as they are described; their scales are not applied.
+/// uint8 fields. Extra bytes are fields as described in the file; their scales are not applied.
 CloudFormat las_format();
 
 /// NumPy's .npy: arrays of named fields (N or H x W), and arrays of numbers of one type (N x k or

@@ -16,7 +16,7 @@
 
 namespace raymoval {
 
-/// Points of one file: what .pcd and .ply readers, ours among them, hold counts in.
+/// Largest number of points of a file: readers of .pcd and .ply count with 32 bits.
 constexpr std::uint64_t kMostCloudPoints = 0xFFFFFFFFU;
 
 // More than any sensor's record; these guard the arithmetic that follows.
@@ -29,11 +29,11 @@ enum class CloudEncoding {
   kCompressed,  ///< PCD: all values of a field after one another, LZF-compressed.
 };
 
-/// What the head of a PCD or PLY file says, checked for sense.
+/// The head of a PCD or PLY file, checked for consistency.
 struct CloudHeader {
   CloudEncoding encoding = CloudEncoding::kBinary;
   bool big_endian = false;
-  /// Padding among them (PCD's fields "_").
+  /// Includes padding (PCD's fields "_").
   std::vector<PointField> fields;
   std::uint64_t points = 0;
   std::uint64_t width = 0, height = 1;  ///< Of an organised cloud; points is their product.
@@ -44,7 +44,7 @@ struct CloudHeader {
   std::optional<Eigen::Matrix<double, 7, 1>> viewpoint;
 
   [[nodiscard]] std::size_t row_bytes() const;
-  /// Position of the first field with one of `names`, or nothing.
+  /// Position of the first field with one of `names`, if there is one.
   [[nodiscard]] std::optional<std::size_t> find(const std::vector<std::string_view>& names) const;
   /// Adds a field behind the others.
   void add(std::string name, char type, int size, int count);
@@ -55,10 +55,10 @@ inline bool is_padding(const PointField& field) {
   return field.name == "_";
 }
 
-/// @throws DataError for rows or counts beyond what a scan can have, and if x, y or z is missing
+/// @throws DataError for implausibly large rows or counts, and if x, y or z is missing
 void check_fields(const CloudHeader& header, const std::filesystem::path& path);
 
-/// Lines of a header, one by one, with what is needed to report them.
+/// Lines of a header, one by one, with their line numbers for messages.
 class HeaderLines {
  public:
   HeaderLines(std::string_view bytes, const std::filesystem::path& path, const char* last_entry)
@@ -91,25 +91,25 @@ class HeaderLines {
 /// @throws DataError with file and line: missing or contradictory entries, unknown types, no x y z
 CloudHeader parse_pcd_header(std::string_view bytes, const std::filesystem::path& path);
 
-/// The header of a PLY file. What stands before the vertices in a binary file is walked through, so
-/// that `body_offset` is where they begin.
+/// The header of a PLY file. Elements before the vertices of a binary file are skipped, so that
+/// `body_offset` is the first vertex.
 /// @param bytes the file
 /// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements before the
 ///   vertices that the file has no bytes for
 CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path);
 
-/// The positions and strengths of the points of a PCD or PLY file. Of text, other fields are not
-/// looked at.
+/// The positions and intensities of the points of a PCD or PLY file. In ASCII files, other fields
+/// are not parsed.
 /// @param origin as `read_cloud`
-/// @throws DataError with line and column for what is no number, with the line for a wrong count of
-///   values or of lines; if there are fewer bytes than the header's points take, or a compressed
+/// @throws DataError with line and column for a word that is no number, with the line for a wrong
+///   number of values or of lines; if the body is shorter than the header's points, or a compressed
 ///   body is damaged
 Cloud header_cloud(const CloudHeader& header, const CloudBytes& file,
                    const Eigen::Vector3d& origin);
 
-/// All fields of such points. In text each value is a number of its type: whole types exactly to 64
-/// bits, reals rounded to nearest; padding is read where it is a number.
-/// @throws DataError as `header_cloud`, also for a number that the field's type does not have
+/// All fields of the points of a PCD or PLY file. In ASCII files, whole types are exact to 64 bits
+/// and reals are rounded to nearest; padding is read if it is a number.
+/// @throws DataError as `header_cloud`, also for a number out of range of the field's type
 PointRecords header_records(const CloudHeader& header, const CloudBytes& file);
 
 }  // namespace raymoval

@@ -13,7 +13,7 @@
 namespace raymoval {
 namespace {
 
-/// At most `bytes` of `text`; no letter of several bytes is cut in two.
+/// The first `bytes` of `text` at most; no character of several bytes is split.
 std::string cut(const std::string& text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
@@ -29,7 +29,7 @@ std::string allowed_name(std::string name, const NameRules& rules) {
   return cut(name, rules.most_bytes);
 }
 
-/// Room for the '_' and the digits that are put behind a name.
+/// Room for the '_' and the digits that are appended to a name.
 constexpr std::size_t kSuffix = 6;
 
 }  // namespace
@@ -41,7 +41,7 @@ bool is_unprinted(char c) {
 std::vector<std::string> fitting_names(const std::vector<std::string>& wanted,
                                        const NameRules& rules) {
   std::unordered_set<std::string> used(rules.taken.begin(), rules.taken.end());
-  // A name that fits as it stands keeps it, wherever it stands.
+  // The first field with a valid name keeps it.
   std::vector<std::string> names;
   std::vector<bool> kept;
   for (const std::string& name : wanted) {

@@ -11,18 +11,18 @@
 
 namespace raymoval {
 
-/// Whether `c` is one of the characters that are not printed, a blank not among them.
+/// Whether `c` is not printable. A blank is printable.
 bool is_unprinted(char c);
 
-/// Which names of fields a format can hold, besides that no two are equal and none is empty.
+/// The rules of a format for field names. Names are always unique and not empty.
 struct NameRules {
   bool with_blanks = false;             ///< Whether a name may have blanks and control characters.
   std::size_t most_bytes = 65535;       ///< Of a name, 24 or more.
   std::vector<std::string> taken = {};  ///< Names that mean something else in the format.
 };
 
-/// `wanted` with the names changed that cannot stand as they are: blanks become '_', long names are
-/// cut, and a number is put behind the later one of equal names. It takes linear time.
+/// `wanted` with invalid names changed: blanks become '_', long names are truncated, and later
+/// duplicates get a number. It takes linear time.
 std::vector<std::string> fitting_names(const std::vector<std::string>& wanted,
                                        const NameRules& rules);
 
@@ -41,16 +41,14 @@ std::vector<std::string> renamed_sentences(const std::vector<std::string>& wante
 /// with several values.
 std::vector<std::string> split_sentences(const RecordLayout& layout);
 
-/// The words of a point layout as fields in their order, also those named "_". Offsets are not
-/// set. @throws UsageError naming the word that is wrong, or for a name that stands there twice
+/// The words of a point layout as fields in their order, including fields "_". Offsets are not set.
+/// @throws UsageError naming the word that is wrong, or for a repeated name
 std::vector<PointField> point_layout_fields(std::string_view text);
 
-/// The fields of a point as a user names them: words NAME, NAME:TYPE or NAME:TYPE[COUNT], such as
-/// "x y z intensity ring:u2 t:f8". Types are f4 (where none is given) f8 i1 i2 i4 i8 u1 u2 u4 u8.
-/// The name "_" stands for bytes that mean nothing and may stand there several times.
-/// @throws UsageError naming the word that is wrong; if x, y or z is missing; for a name that
-/// stands
-///   there twice
+/// The fields of a point from a text of words NAME, NAME:TYPE or NAME:TYPE[COUNT], such as
+/// "x y z intensity ring:u2 t:f8". Types are f4 (the default) f8 i1 i2 i4 i8 u1 u2 u4 u8. The name
+/// "_" is for padding and may be repeated.
+/// @throws UsageError naming the word that is wrong; if x, y or z is missing; for a repeated name
 RecordLayout parse_point_layout(std::string_view text);
 
 /// The text that `parse_point_layout` reads as `layout`. Blanks in names become '_'.

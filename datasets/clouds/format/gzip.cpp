@@ -13,7 +13,7 @@
 namespace raymoval {
 namespace {
 
-/// What `packed` bytes may unpack to. Deflate cannot give more than 1,032 times its bytes.
+/// Limit of the decompressed size. Deflate cannot give more than 1,032 times its bytes.
 std::uint64_t most_unpacked(std::uint64_t packed) {
   return std::min<std::uint64_t>(std::uint64_t{1} << 30, packed * 1000 + (1 << 20));
 }
@@ -28,7 +28,7 @@ class Inflation {
   Inflation(const Inflation&) = delete;
   Inflation& operator=(const Inflation&) = delete;
 
-  /// Unpacks up to the end of a stream, behind what `text` holds already.
+  /// Decompresses up to the end of a stream and appends the result to `text`.
   /// @return false if there is more than `most` in all
   bool unpack_into(std::string& text, std::uint64_t most) {
     for (int state = Z_OK; state != Z_STREAM_END;) {

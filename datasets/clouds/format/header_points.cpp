@@ -20,7 +20,7 @@
 namespace raymoval {
 namespace {
 
-/// A line of numbers, and what is needed to report it.
+/// A line of numbers, and its number for messages.
 struct AsciiLine {
   std::string_view text;
   std::size_t number = 0;  ///< In the file, from 1.
@@ -47,7 +47,8 @@ std::size_t values_a_point(const CloudHeader& header) {
   return count;
 }
 
-/// How many points there can be: a value takes a character and what ends it, save the very last.
+/// Largest possible number of points: each value takes a character and a separator, except the
+/// last.
 std::uint64_t possible_points(const CloudHeader& header, std::string_view body) {
   const std::uint64_t possible =
       (body.size() + 1) / (2 * std::max<std::size_t>(values_a_point(header), 1));
@@ -97,7 +98,7 @@ void for_each_point(const CloudHeader& header, std::string_view body,
                   "; it looks truncated." + kRereadRemedy);
 }
 
-/// The value of a text, less `origin`; nothing if it is no number.
+/// The value of `word` minus `origin`; empty if it is no number.
 std::optional<float> parsed_value(std::string_view word, double origin) {
   if (origin == 0.0) {
     if (const auto value = parse_number<float>(word)) return value;
@@ -111,7 +112,7 @@ std::optional<float> parsed_value(std::string_view word, double origin) {
   return static_cast<float>(near);
 }
 
-/// The number of type `Number` that a text is. Whole types take 255.0 and 1e3 for what they are.
+/// Parses a number of type `Number`. Whole types also accept 255.0 and 1e3.
 template <class Number>
 std::optional<Number> typed_value(std::string_view word) {
   if (const auto value = parse_number<Number>(word)) return value;
@@ -207,8 +208,7 @@ StoredPoints binary_points(const CloudHeader& header, std::string_view body,
   return stored;
 }
 
-/// Undoes the LZF compression of the body of a binary_compressed PCD file after checking the sizes
-/// that it announces.
+/// Decompresses the LZF body of a binary_compressed PCD file after checking its stated sizes.
 std::string unpack_lzf_block(std::string_view body, std::uint64_t expected_bytes,
                              const std::filesystem::path& path) {
   // A back reference of 3 bytes gives at most 264.

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "point records are little-endian");
 
-/// Whether the values stand where they do in a record, so that whole rows can be copied.
+/// Whether the values have the same places as in a record, so that whole rows can be copied.
 bool is_row_of(const StoredColumn& column, const StoredColumn& first, std::size_t row_bytes) {
   return !column.big_endian && column.step == row_bytes &&
          column.start - column.field.offset == first.start - first.field.offset;
@@ -42,8 +42,8 @@ Number number_at(const char* place, bool big_endian) {
   return number;
 }
 
-/// Writes the values of `column`, less `origin`, to `to`, `to + to_step` and so on. What nothing is
-/// taken off is rounded once.
+/// Writes the values of `column` minus `origin` to `to`, `to + to_step` and so on. With an origin
+/// of 0, values are rounded once.
 void read_column(const StoredPoints& stored, const StoredColumn& column, double origin, float* to,
                  std::size_t to_step) {
   with_number_type(column.field.type, column.field.size, [&](auto zero) {
@@ -56,7 +56,7 @@ void read_column(const StoredPoints& stored, const StoredColumn& column, double 
   });
 }
 
-/// Rows of float32 x y z intensity that stand side by side, as in most files: one pass.
+/// Whether rows are adjacent float32 x y z intensity, as in most files: these take one pass.
 bool are_plain_rows(const std::vector<StoredColumn>& columns) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const StoredColumn& column = columns[i];

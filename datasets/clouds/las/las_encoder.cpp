@@ -21,8 +21,8 @@ namespace raymoval {
 namespace {
 
 constexpr double kMost = std::numeric_limits<std::int32_t>::max();
-/// Further from 0 than this along an axis, the offset is near the first points, metres. The numbers
-/// reach 2,147 km at 0.001 m.
+/// If points are farther from 0 than this along an axis, the offset is near the first points,
+/// metres. At a scale of 0.001 m, 32 bits reach 2,147 km.
 constexpr double kFar = 1e6;
 
 /// The least and the greatest finite coordinates of points; 0 if there are none.
@@ -43,12 +43,11 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> bounds_of(const PointRecords& points
   return {least, most};
 }
 
-/// Coordinates of a LAS file that is written: whole numbers of 32 bits times a scale from an
-/// offset.
+/// Encodes coordinates for LAS: whole numbers of 32 bits, multiplied by a scale from an offset.
 class LasGrid {
  public:
   /// @param where the file, for messages
-  /// @param first the points that the file begins with
+  /// @param first the first points of the file
   /// @param notes the scale and offset to use if `first` lies within them, or null
   LasGrid(std::string where, const PointRecords& first, const LasNotes* notes)
       : where_(std::move(where)) {
@@ -72,9 +71,9 @@ class LasGrid {
     }
   }
 
-  /// Writes the three numbers of a place to `to`.
+  /// Writes the three numbers of a position to `to`.
   /// @param point number in the file, for messages
-  /// @throws DataError if the place is not finite or beyond what the numbers reach
+  /// @throws DataError if the position is not finite or out of range
   void encode(const Eigen::Vector3d& place, std::uint64_t point, char* to) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double steps = std::nearbyint((place[axis] - offset_[axis]) / scale_[axis]);
@@ -94,7 +93,7 @@ class LasGrid {
     }
   }
 
-  /// Writes scale, offset and the bounds of what was encoded into the head of a LAS file.
+  /// Writes scale, offset and the bounds of the encoded points into the head of a LAS file.
   void put_into(std::string& head) const {
     const auto put = [&](std::size_t at, double number) {
       std::memcpy(head.data() + at, &number, sizeof number);
@@ -120,7 +119,7 @@ class LasGrid {
 
 constexpr std::size_t kHeadBytes = 375, kRecordHead = 54;
 
-/// Bytes with numbers written to places in them, as the public header block of LAS has them.
+/// The bytes of a public header block of LAS.
 struct HeadBytes {
   std::string bytes;
   template <class Number>

@@ -12,7 +12,7 @@
 namespace raymoval {
 namespace {
 
-/// Puts together the record of a format.
+/// Builds the record of a format.
 class LasRecord {
  public:
   explicit LasRecord(int format) {
@@ -132,7 +132,7 @@ bool has_colours(const RecordLayout& layout, int format) {
   return true;
 }
 
-/// Colours in one number, as PCL has them.
+/// Colours in one number, as in PCL.
 const PointField* packed_colour(const RecordLayout& layout) {
   const PointField* field = layout.find({"rgb", "rgba"});
   const bool packed =
@@ -140,7 +140,7 @@ const PointField* packed_colour(const RecordLayout& layout) {
   return packed ? field : nullptr;
 }
 
-/// The values of a field, or its bytes in pieces, as fields of the extra bytes.
+/// Adds the values of a field, or its bytes in pieces, as fields of the extra bytes.
 void add_extra(const PointField& field, LasMapping& mapping) {
   const bool bytes = field.type == 'U' && field.size == 1 && field.count > 1;
   const int piece = bytes ? std::min(field.count, 255) : 1;
@@ -187,7 +187,7 @@ LasMapping map_to_las(const RecordLayout& layout) {
     const auto& all = las_fields(mapping.format);
     const auto to = std::find_if(all.begin(), all.end(), [&](const LasField& known) {
       return known.name == field.name && find_fitting(layout, known) == &field &&
-             // The places of colours are taken by those of the packed number.
+             // The packed number fills the fields of colours.
              (packed == nullptr || known.at < las_record_bytes(6));
     });
     if (to != all.end()) {
@@ -213,7 +213,7 @@ LasMapping map_to_las(const RecordLayout& layout) {
 
 namespace {
 
-// Places in a description, as the LAS 1.4 specification has them.
+// Places in a description, from the LAS 1.4 specification.
 constexpr std::size_t kType = 2, kOptions = 3, kName = 4, kNameBytes = 32, kBounds = 64,
                       kBoundsBytes = 48;
 constexpr unsigned kHasMinimum = 2, kHasMaximum = 4;

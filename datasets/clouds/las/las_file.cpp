@@ -41,7 +41,7 @@ RecordLayout layout_of(const LasHead& head) {
   return layout;
 }
 
-/// Writes the fields of a point one after another, as `layout_of` has them.
+/// Writes the fields of a point one after another, in the order of `layout_of`.
 void unpack_record(const char* record, const LasHead& head, std::byte* to) {
   const auto put = [&](const void* from, std::size_t bytes) {
     std::memcpy(to, from, bytes);

@@ -110,7 +110,7 @@ class LasHeadReader {
       place += kExtendedHead + length;
     }
   }
-  /// What stands behind the points begins at `place`.
+  /// Limits the points: other data begins at `place`.
   void end_at(std::uint64_t place) {
     if (place > head_.first_point) end_ = std::min<std::uint64_t>(end_, place);
   }

@@ -14,8 +14,7 @@
 
 namespace raymoval {
 
-/// What the head of a LAS file says of its values beyond their types: what a LAS file that is made
-/// of its points takes over.
+/// Facts from the head of a LAS file that are copied to a LAS file written from its points.
 struct LasNotes {
   Eigen::Vector3d scale, offset;  ///< Metres: a coordinate is a whole number times scale + offset.
   /// The description (192 bytes) of each field in the extra bytes, by the field's name.
@@ -24,10 +23,10 @@ struct LasNotes {
   bool standard_gps_time = false;  ///< GPS time is adjusted standard time, not of the week.
 };
 
-/// What the head of a LAS file says, checked against the bytes that there are.
+/// The head of a LAS file, checked against the size of the file.
 struct LasHead {
   int format = 0;                ///< Of the points, 0 to 10.
-  std::size_t record_bytes = 0;  ///< Of a point, extra bytes among them.
+  std::size_t record_bytes = 0;  ///< Of a point, including extra bytes.
   std::uint64_t points = 0;
   std::uint64_t first_point = 0;  ///< Bytes before the points.
   std::vector<ExtraField> extra;
@@ -35,7 +34,7 @@ struct LasHead {
 };
 
 /// @throws DataError for a version that is not 1.0 to 1.4, for LAZ, for counts and lengths that do
-///   not fit the bytes there are, for scales that are none
+///   not fit the size of the file, and for invalid scales
 LasHead read_las_head(const CloudBytes& file);
 
 }  // namespace raymoval

@@ -75,7 +75,7 @@ void check_plain_shape(const CloudBytes& file, const NpyHead& head) {
                   "x, y and z. Transpose it, or stack its columns.");
 }
 
-/// @throws DataError if the array does not take just the bytes there are
+/// @throws DataError if the size of the array is not the number of bytes
 void check_bytes(const CloudBytes& file, const NpyHead& head, std::uint64_t points,
                  std::uint64_t row_bytes) {
   const std::uint64_t bytes = head.body.size();
@@ -88,9 +88,8 @@ void check_bytes(const CloudBytes& file, const NpyHead& head, std::uint64_t poin
       (cut ? std::string("truncated.") + kRereadRemedy : "like several, and only one is read."));
 }
 
-/// @throws DataError naming what of the head cannot be, or that there are fewer or more bytes than
-/// it
-///   announces; UsageError if the point layout does not fit the array
+/// @throws DataError naming an invalid part of the head, or a wrong number of bytes; UsageError if
+///   the point layout does not fit the array
 NpyPoints npy_points(const CloudBytes& file) {
   const NpyHead head = npy_head(file);
   const bool structured = head.type.structured;
@@ -173,8 +172,8 @@ class ZipArchive {
   }
 
   /// The content of the file `name`.
-  /// @throws DataError if it is damaged (its checksum is compared), encrypted, or packed in a way
-  ///   that is not read; as `check_unpacked`
+  /// @throws DataError if it is damaged (its checksum is compared), encrypted, or compressed in a
+  ///   way that is not supported; as `check_unpacked`
   [[nodiscard]] std::string content(const std::string& name) const {
     zip_stat_t about;
     if (zip_stat(archive_, name.c_str(), ZIP_FL_ENC_RAW, &about) != 0) fail(name);
@@ -187,7 +186,7 @@ class ZipArchive {
         zip_fopen_index(archive_, about.index, 0));
     if (!file) fail(name);
     std::string content(about.size, '\0');
-    char beyond = 0;  // The checksum is compared where nothing is left.
+    char beyond = 0;  // Reading beyond the end compares the checksum.
     const bool whole = zip_fread(file.get(), content.data(), content.size()) ==
                            static_cast<zip_int64_t>(content.size()) &&
                        zip_fread(file.get(), &beyond, 1) == 0;
@@ -252,7 +251,7 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
-/// Whether rows of `layout` are numbers of one type that never had names.
+/// Whether rows of `layout` are numbers of one type without stored names.
 bool is_plain_array(const RecordLayout& layout) {
   if (!layout.unnamed || layout.fields.empty()) return false;
   std::size_t at = 0;
@@ -265,7 +264,7 @@ bool is_plain_array(const RecordLayout& layout) {
 }
 
 /// The text of "descr" for rows of `layout`: a plain type for a plain array, else a list of fields.
-/// @param names of the fields, as they are to be written
+/// @param names of the fields in the file
 std::string npy_descr(const RecordLayout& layout, const std::vector<std::string>& names) {
   if (is_plain_array(layout)) return type_text(layout.fields.front());
   std::string text = "[";
@@ -304,7 +303,7 @@ class NpyEncoder : public RecordEncoder {
     if (is_plain_array(first.layout)) {
       columns_ = first.layout.row_bytes / static_cast<std::size_t>(first.layout.fields[0].size);
     }
-    // The longest shape there can be leaves room for all others.
+    // The longest possible shape leaves room for all others.
     const std::size_t longest =
         dictionary("4294967295, 4294967295, " + std::to_string(columns_) + ", ").size();
     const bool long_head = longest + 64 > 65535;

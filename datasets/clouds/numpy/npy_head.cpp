@@ -15,7 +15,7 @@
 namespace raymoval {
 namespace {
 
-/// The text of the head, and what follows it.
+/// The text of the head, and the bytes behind it.
 std::pair<std::string_view, std::string_view> head_and_body(const CloudBytes& file) {
   const std::string where = file.path.string();
   constexpr std::string_view kMagic = "\x93NUMPY";
@@ -40,7 +40,7 @@ std::pair<std::string_view, std::string_view> head_and_body(const CloudBytes& fi
 
 /// A Python literal as YAML: brackets for tuples, and texts between double quotes, whose escapes
 /// both languages write alike.
-/// @throws DataError for a character that stands in no head of an array
+/// @throws DataError for a character that no head of an array has
 std::string yaml_of(std::string_view python, const std::string& where) {
   constexpr std::string_view kKnown = " \n\t,:{}[]";
   std::string yaml;
@@ -73,7 +73,7 @@ std::string yaml_of(std::string_view python, const std::string& where) {
   return yaml;
 }
 
-/// A whole number from 0 on; nothing if it is none.
+/// A whole number from 0 on; empty for another value.
 std::optional<std::uint64_t> length_in(const YAML::Node& node) {
   return node.IsScalar() ? parse_number<std::uint64_t>(node.Scalar()) : std::nullopt;
 }
@@ -84,8 +84,8 @@ std::optional<std::uint64_t> length_in(const YAML::Node& node) {
                   "with another type.");
 }
 
-/// The number type of "<f4" without its byte order. Nothing if it is not read. A count of 0: no
-/// bytes at all.
+/// The number type of "<f4" without its byte order. Empty if it is not supported. A count of 0
+/// means no bytes.
 std::optional<PointField> number_type(std::string_view text) {
   if (text.size() < 2) return std::nullopt;
   const char kind = text[0];
@@ -117,7 +117,7 @@ class TypeReader {
  public:
   explicit TypeReader(const std::string& where) : where_(where) {}
 
-  /// @throws DataError naming the type that is not read, among them Python objects, which only
+  /// @throws DataError naming a type that is not supported, such as Python objects, which only
   ///   running code could read
   NpyType read(const YAML::Node& descr) {
     type_.structured = descr.IsSequence();

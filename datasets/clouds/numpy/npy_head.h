@@ -10,20 +10,20 @@
 
 namespace raymoval {
 
-/// A field of an array's items, or all of an item that has no fields (then its name is empty).
+/// A field of an array's items, or the whole item if it has no fields (then the name is empty).
 struct NpyField {
   PointField field;
   bool big_endian = false;
 };
 
-/// What the items of an array are.
+/// The type of an array's items.
 struct NpyType {
   std::vector<NpyField> fields;
-  std::size_t bytes = 0;    ///< Of an item, padding among them.
+  std::size_t bytes = 0;    ///< Of an item, including padding.
   bool structured = false;  ///< Whether the items have named fields.
 };
 
-/// What the head of an .npy file says, and the bytes that follow it.
+/// The head of an .npy file, and the bytes behind it.
 struct NpyHead {
   NpyType type;
   bool by_columns = false;  ///< Fortran order.
@@ -34,8 +34,8 @@ struct NpyHead {
   [[nodiscard]] std::string shape_text() const;
 };
 
-/// @param file an .npy file, which has to live as long as what is returned
-/// @throws DataError naming what of its head cannot be
+/// @param file an .npy file that outlives the result
+/// @throws DataError naming an invalid part of its head
 NpyHead npy_head(const CloudBytes& file);
 
 }  // namespace raymoval

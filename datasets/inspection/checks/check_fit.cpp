@@ -16,14 +16,14 @@ namespace {
 using registration::PairDistance;
 using registration::PoseFit;
 
-/// What is left of the distance under a hypothesis that explains it.
+/// Largest share of the distance that remains under a hypothesis that explains it.
 constexpr double kExplained = 0.25;
 
 bool is_wrong(const PairDistance& pair) {
   return pair.distance_m > registration::kMostDistanceOfPair;
 }
 
-/// If all wrong pairs lie across one jump: the last scan before it and the first one after it.
+/// If all wrong pairs span one jump: the last scan before it and the first scan after it.
 std::optional<PairDistance> find_jump(const ScanSource& scans, const PoseFit& fit) {
   std::optional<PairDistance> jump;
   for (const PairDistance& pair : fit.pairs) {
@@ -80,8 +80,8 @@ class ReposedScans : public ScanSource {
   const PoseHypothesis& hypothesis_;
 };
 
-/// Scans that look alike along a street agree under wrong poses, too, but do not fit to the
-/// centimetre. So the usual mistakes of poses are tried again.
+/// Tries the hypotheses on poses again: similar scans along a street agree under wrong poses, too,
+/// but do not fit to the centimetre.
 std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
   for (const PoseHypothesis& hypothesis : pose_hypotheses(samples)) {
     const ReposedScans scans(*samples.sequence().scans, hypothesis);
@@ -107,7 +107,7 @@ std::vector<Finding> look_at_fit(Samples& samples) {
     return {{.check = "time-offset",
              .what = pose_fit_text(samples) + "; " + time_offset_text(*offset),
              .expected = check_named("time-offset").expected,
-             .remedy = "Say " + time_offset_option(samples, *offset) + "."}};
+             .remedy = "Use " + time_offset_option(samples, *offset) + "."}};
   }
   if (const auto finding = explained(samples, fit)) return {*finding};
   const auto wrong = std::count_if(fit.pairs.begin(), fit.pairs.end(), is_wrong);

@@ -23,7 +23,7 @@ bool in_label_file(const Samples& samples, std::size_t scan) {
   return !samples.files().empty() && !samples.files()[scan].label_path.empty();
 }
 
-/// Words as stored, whether or not they fit the scan.
+/// Words as stored, even if their number does not fit the scan.
 Words stored_words(const Samples& samples, std::size_t scan) {
   if (in_label_file(samples, scan)) {
     const auto bytes = read_bytes(samples.files()[scan].label_path);
@@ -42,8 +42,8 @@ bool ends_in_part(const Samples& samples, std::size_t scan) {
   return plain_file_size(samples.files()[scan].label_path) % sizeof(std::uint32_t) != 0;
 }
 
-/// How often points close together have different labels, among those near any point whose label
-/// is not the scan's commonest; 0 = never. Labels of other points are scattered in space.
+/// How often close points have different labels, among pairs with a label that is not the most
+/// common label of the scan; 0 = never. Labels of another scan are scattered in space.
 double confusion(const Scan& scan, const Words& words) {
   constexpr double kCell = 0.4, kFar = 25.0;
   std::map<std::uint16_t, std::size_t> total;
@@ -75,12 +75,12 @@ double confusion(const Scan& scan, const Words& words) {
 
 struct CountsSeen {
   std::size_t frames = 0, wrong = 0, first_wrong = 0;
-  std::size_t labels = 0, points = 0;  ///< Of the first wrong one.
-  bool cut = false;                    ///< Its file ends with a part of a label.
+  std::size_t labels = 0, points = 0;  ///< Of the first wrong scan.
+  bool cut = false;                    ///< Its label file ends with a part of a label.
   std::size_t as_next = 0, as_previous = 0;
 };
 
-/// Label counts of the scans read, and whether they are those of a neighbour.
+/// Compares label counts with the points of each scan and of its neighbours.
 CountsSeen look_at_counts(const Samples& samples) {
   CountsSeen seen;
   std::map<std::size_t, std::size_t> points;
@@ -106,14 +106,14 @@ CountsSeen look_at_counts(const Samples& samples) {
   return seen;
 }
 
-/// Mean confusion of the scans that are first of a pair, with the labels of another scan.
+/// Mean confusion of scans of pairs. @param shift -1, 1: labels of the scan before, after
 double mean_confusion(const Samples& samples, int shift) {
   double sum = 0.0;
   std::size_t count = 0;
   std::set<std::size_t> done;
   for (const ScanPair& pair : samples.pairs()) {
     if (pair.to != pair.from + 1 || !done.insert(pair.from).second || done.size() > 4) continue;
-    // Of a pair of neighbours either takes the labels of the other.
+    // In a pair of neighbours, each scan can use the labels of the other.
     const std::size_t scan = shift < 0 ? pair.to : pair.from;
     const std::size_t other = shift < 0 ? pair.from : (shift > 0 ? pair.to : pair.from);
     sum += confusion(samples.scans().at(scan), stored_words(samples, other));
@@ -197,7 +197,7 @@ std::vector<float> stored_intensity(const Samples& samples) {
   return all;
 }
 
-/// A strength of return has many values; labels are few whole numbers from a known list.
+/// Intensity has many values; labels are few whole numbers from a known list.
 std::vector<Finding> look_for_values(Samples& samples) {
   if (samples.layout().labels_in_intensity && samples.sequence().labels != nullptr) return {};
   std::set<std::uint32_t> values;

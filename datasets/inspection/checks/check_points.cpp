@@ -26,8 +26,8 @@ std::vector<Finding> look_for_millimetres(Samples& samples) {
       .what = fmt::format("half of the points lie more than {} from the middle of their scan; "
                           "taken as millimetres that is {} m",
                           fixed_text(extent, 0), fixed_text(0.001 * extent, 1))};
-  // Hardly a sensor has half of its returns beyond so many metres, which speaks against
-  // centimetres.
+  // Hardly any sensor has half of its returns beyond this distance, metres; points in centimetres
+  // do.
   constexpr double kFarthestUsual = 100.0;
   if (0.01 * extent < kFarthestUsual) {
     finding.what += ", as centimetres " + fixed_text(0.01 * extent, 1) + " m";
@@ -38,7 +38,7 @@ std::vector<Finding> look_for_millimetres(Samples& samples) {
   return {finding};
 }
 
-/// True of most drivers' files, and nothing has to be done: readers leave such points out.
+/// A note only: files of most drivers have such points, and readers leave them out.
 std::vector<Finding> look_for_no_returns(Samples& samples) {
   const LeftOutPoints points = left_out_points(samples.sequence());
   std::vector<Finding> findings;
@@ -53,7 +53,7 @@ std::vector<Finding> look_for_no_returns(Samples& samples) {
   return findings;
 }
 
-/// How much a scan holds: of files their bytes, else points.
+/// Size of a scan: bytes of its file, else points.
 struct ScanSize {
   std::size_t scan = 0;
   double size = 0.0;
@@ -82,8 +82,8 @@ double size_around(const std::vector<ScanSize>& sizes, std::size_t at) {
   return median(std::move(around));
 }
 
-/// A file that was cut at a whole point reads well, but is smaller than those around it by far more
-/// than these differ among each other.
+/// Finds files that were truncated at a whole point. Such a file is readable, but is much smaller
+/// than its neighbours, compared with their differences.
 std::vector<Finding> look_for_few_points(Samples& samples) {
   constexpr double kLeastLoss = 0.2, kUsualLosses = 10.0, kMostLoss = 0.7;
   constexpr std::size_t kFewest = 4;
@@ -110,14 +110,14 @@ std::vector<Finding> look_for_few_points(Samples& samples) {
                small.size() > 1 ? ", and so do " + grouped_text(small.size() - 1) + " more" : "")}};
 }
 
-/// 16 KiB out of the middle of a file: enough to tell scans apart.
+/// 16 KiB from the middle of a file: enough to distinguish scans.
 std::string middle_piece(const std::filesystem::path& path, std::uintmax_t size) {
   constexpr std::uintmax_t kPiece = 16384;
   const std::uintmax_t piece = std::min(size, kPiece);
   return read_piece(path, (size - piece) / 2, static_cast<std::size_t>(piece));
 }
 
-/// Files that are compared byte by byte; where there are more copies, their middles will do.
+/// Number of files that are compared byte by byte; of more copies, only the middles are compared.
 constexpr std::size_t kCompared = 20;
 
 /// Pairs of files with the same bytes; only those of equal size are opened.
@@ -182,8 +182,8 @@ std::vector<double> sorted_ranges(const Scan& scan) {
   return ranges;
 }
 
-/// A filter leaves a cliff: as many points just within its limit as before, none beyond, at the
-/// same range in every scan. A sensor's own returns thin out.
+/// Finds a range filter: in every scan, the number of points drops to zero at the same range.
+/// Without a filter, returns thin out gradually.
 std::vector<Finding> look_for_truncation(Samples& samples) {
   constexpr double kEqual = 0.02, kBand = 0.05, kCliff = 0.5, kLeast = 0.002;
   constexpr double kShareOfSensor = 0.6, kUnknownSensor = 60.0;

@@ -55,7 +55,7 @@ std::vector<Finding> look_for_gaps(Samples& samples) {
   return findings;
 }
 
-/// Scans that were left out and renumbered show in the motion alone.
+/// Finds scans that were left out and renumbered: only the motion shows them.
 std::vector<Finding> look_for_jumps(Samples& samples) {
   constexpr double kJump = 1.7, kSlack = 0.3;
   if (!pose_verdict(samples).check.empty()) return {};
@@ -80,14 +80,14 @@ std::vector<Finding> look_for_jumps(Samples& samples) {
                                fixed_text(steps[at + 1], 2), and_more(jumps.size()))}};
 }
 
-/// What `pose_verdict` finds goes first: this is about poses that are nearly right. Where they do
-/// not fit, `fit_checks` name the offset, for the map would be wrong.
+/// For poses that are nearly right; findings of `pose_verdict` come first. If poses do not fit,
+/// `fit_checks` report the offset, because the map would be wrong.
 std::vector<Finding> look_for_time_offset(Samples& samples) {
   if (!pose_verdict(samples).check.empty() || !fits(measured_fit(samples))) return {};
   const std::optional<TimeOffset> offset = find_time_offset(samples);
   if (!offset || !is_clear(*offset)) return {};
   return {{.what = time_offset_text(*offset),
-           .remedy = "Say " + time_offset_option(samples, *offset) + "."}};
+           .remedy = "Use " + time_offset_option(samples, *offset) + "."}};
 }
 
 std::vector<Finding> look_for_missing_poses(Samples& samples) {
@@ -126,7 +126,7 @@ Check verdict_check(const std::string& name, const std::string& finds, const std
   return {name, finds, expected, remedy, look, Consequence::kRefused};
 }
 
-/// Points right below `centre`, where a sensor's own blind zone is.
+/// Number of points right below `centre`, where a sensor has its blind zone.
 std::size_t points_below(const Scan& scan, const Eigen::Vector3d& centre) {
   std::size_t count = 0;
   for (const Eigen::Vector3f& point : scan.points) {
@@ -155,8 +155,8 @@ bool is_left_at_one_place(const Samples& samples) {
   });
 }
 
-/// Points in the world frame agree whatever VIEWPOINT says; but a sensor sees no ground right below
-/// itself.
+/// Checks VIEWPOINT for points in the world frame, which agree with any VIEWPOINT: there must be no
+/// ground right below the sensor.
 std::vector<Finding> look_for_sensor(Samples& samples) {
   constexpr std::size_t kMany = 8, kFew = 2;
   if (!samples.points_in_world() || !pose_verdict(samples).check.empty()) return {};

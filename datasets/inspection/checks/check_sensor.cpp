@@ -15,7 +15,7 @@
 namespace raymoval::inspection {
 namespace {
 
-/// Steps that differ by more are not those of the sensor; 10 Hz and 15 Hz differ by as much.
+/// Steps with a larger ratio are not those of the sensor. 10 Hz and 15 Hz have this ratio.
 constexpr double kMostRatio = 1.5;
 
 bool differs(double named, double seen) {
@@ -43,8 +43,8 @@ double share_out_of_view(const Samples& samples, const SensorModel& sensor, doub
   return points > 0 ? static_cast<double>(out) / static_cast<double>(points) : 0.0;
 }
 
-/// A sensor that is named by mistake. A narrower field of view says nothing, for nothing may stand
-/// there; neither do steps where the scans show no beams, for they may be thinned out.
+/// Finds a wrong sensor name. A narrower field of view is no evidence, because there may be no
+/// objects; neither are steps if the scans show no beams, because they may be downsampled.
 std::vector<Finding> look_for_other_sensor(Samples& samples) {
   constexpr double kMargin = 2.0 * kDegree, kShare = 0.02;
   const SensorModel& named = samples.sequence().scans->sensor();
@@ -92,16 +92,16 @@ std::vector<Check> sensor_model_checks() {
 
 namespace {
 
-/// Share of a scan's points from which its own vehicle is worth a word. Measured with points glued
-/// to the sensor of a simulated drive (16 beams, 22,000 points a scan): peopleremover takes what
-/// stands at the sensor for a body that blocks every ray, and falls from F1 .749 to .720 with 10 of
-/// them (0.045 %), to .124 with 20 (0.09 %), to .042 with 30. The next to suffer is dufomap (.196
-/// to .186 with 30), then removert (.824 to .810 with 1,000); octomap, raymoval, raymoval_plus and
-/// erasor stay within .005. How near they are matters too: the cars of KITTI's drives (0.02 %) and
-/// of the scene town (0.06 %, where labels make it a note) harm none.
+/// Share of a scan's points from which the ego vehicle is reported. Measured with points fixed to
+/// the sensor of a simulated drive (16 beams, 22,000 points per scan): in peopleremover, points at
+/// the sensor block every ray, and F1 falls from .749 to .720 with 10 points (0.045 %), to .124
+/// with 20 (0.09 %), to .042 with 30. Next are dufomap (.196 to .186 with 30) and removert (.824 to
+/// .810 with 1,000); octomap, raymoval, raymoval_plus and erasor stay within .005. The distance of
+/// the points matters too: the cars of KITTI's drives (0.02 %) and of the scene town (0.06 %, where
+/// labels make it a note) harm no method.
 constexpr double kManyEgoPoints = 0.0005;
 
-/// What is known of the points that go along with the sensor.
+/// Evidence on the points that move along with the sensor.
 struct EgoPoints {
   std::size_t all = 0, points = 0, labelled = 0;
   double farthest = 0.0;

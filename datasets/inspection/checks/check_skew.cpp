@@ -18,14 +18,14 @@ namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kFarPairs = 8, kFewestFarPairs = 3;
-constexpr double kDistance = 6.0;      // metres of way between the scans of a pair
+constexpr double kDistance = 6.0;      // metres of path between the scans of a pair
 constexpr double kReach = 0.1;         // metres; skew moves surfaces by decimetres
 constexpr double kLeastAcross = 0.05;  // share of surfels
 constexpr double kClear = 1.03;        // on good data undoing a skew makes the agreement worse
 
-/// How a sensor may sweep once around.
+/// One revolution of a sensor.
 struct Sweep {
-  double cut = 0.0;   ///< Azimuth where it begins, radians.
+  double cut = 0.0;   ///< Azimuth of its beginning, radians.
   int direction = 1;  ///< +1 counter-clockwise, -1 clockwise.
   const char* text = "";
 };
@@ -40,13 +40,13 @@ constexpr std::array kSweeps = {Sweep{0.0, 1, "counter-clockwise from ahead"},
                                 Sweep{2.0 * kQuarter, -1, "clockwise from behind"},
                                 Sweep{3.0 * kQuarter, -1, "clockwise from the right"}};
 
-/// When in the sweep a direction is measured, -0.5 to 0.5.
+/// The time of a direction in the sweep, -0.5 to 0.5.
 double phase(const Eigen::Vector3d& point, const Sweep& sweep) {
   const double turns = sweep.direction * (std::atan2(point.y(), point.x()) - sweep.cut) / kTurn;
   return turns - std::floor(turns) - 0.5;
 }
 
-/// Surfels of a scan as they would be without motion during the sweep.
+/// Surfels of a scan, corrected for motion during the sweep.
 std::vector<Surfel> unskewed(std::vector<Surfel> surfels, const Pose& motion, const Sweep& sweep) {
   for (Surfel& surfel : surfels) {
     const Pose moved = part_of(motion, phase(surfel.mean, sweep));
@@ -62,7 +62,7 @@ Pose motion_during(const Samples& samples, std::size_t scan) {
   return part_of(poses[scan - 1].inverse() * poses[scan + 1], 0.5);
 }
 
-/// Pairs so far apart that the same surface is seen in other directions.
+/// Pairs that are far apart, so that the same surface is in other directions.
 std::vector<ScanPair> far_pairs(const Samples& samples) {
   const auto& poses = samples.poses();
   std::vector<double> way(poses.size(), 0.0);
@@ -80,8 +80,8 @@ std::vector<ScanPair> far_pairs(const Samples& samples) {
   return chosen;
 }
 
-/// Share of surfels that show how far the sensor goes along its way: planes that face it, and poles
-/// that stand across. Along a tunnel, skew changes nothing.
+/// Share of surfels that constrain the motion along the path: planes that face it, and poles across
+/// it. Along a tunnel, skew changes nothing.
 double share_across(const std::vector<Surfel>& surfels, const Pose& motion) {
   const Eigen::Vector3d way = motion.translation().normalized();
   const auto across = std::count_if(surfels.begin(), surfels.end(), [&](const Surfel& surfel) {
@@ -97,7 +97,7 @@ double registered(const std::vector<Surfel>& from, const std::vector<Surfel>& to
   return map.agreement(to, map.refine(to, motion), kReach);
 }
 
-/// Agreements of all pairs, as they stand and with each sweep undone.
+/// Agreements of all pairs, as stored and with each sweep corrected.
 struct SkewFit {
   std::vector<double> given;                                 ///< By pair.
   std::array<std::vector<double>, kSweeps.size()> undone{};  ///< By sweep and pair.
@@ -105,7 +105,7 @@ struct SkewFit {
   [[nodiscard]] static double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
   }
-  /// Pairs that agree better without the sweep.
+  /// Number of pairs that agree better with the correction.
   [[nodiscard]] std::size_t better(std::size_t sweep) const {
     std::size_t count = 0;
     for (std::size_t k = 0; k < given.size(); ++k) count += undone[sweep][k] > given[k] ? 1 : 0;
@@ -129,9 +129,9 @@ SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs) {
   return fit;
 }
 
-/// If the points of a scan are each in the frame that the sensor had when it took them, undoing
-/// its motion makes far scans agree better, and undoing the opposite motion makes them worse; on
-/// any other data both make them worse.
+/// Finds skewed scans, in which each point is in the sensor frame at its own time. In skewed scans,
+/// correcting the motion makes far scans agree better, and correcting the opposite motion makes
+/// them agree worse; in other scans, both make them agree worse.
 std::vector<Finding> look_for_skew(Samples& samples) {
   if (!pose_verdict(samples).check.empty()) return {};
   const std::vector<ScanPair> pairs = far_pairs(samples);

@@ -16,7 +16,7 @@
 namespace raymoval::inspection {
 namespace {
 
-/// A finding for each sentence, "PLACE: what is wrong.".
+/// A finding for each sentence "PLACE: problem.".
 std::vector<Finding> look_damaged(Samples& samples) {
   std::vector<Finding> findings;
   for (const std::string& sentence : samples.sequence().damage) {
@@ -46,7 +46,7 @@ std::string metres_text(double metres) {
   return metres < 1e15 ? grouped_text(static_cast<std::uint64_t>(metres)) : number_text(metres);
 }
 
-/// Largest distance along an axis. It is not a number if one of them is not.
+/// Largest distance along an axis. It is NaN if a coordinate is.
 double largest(const Eigen::Vector3d& offset) {
   return offset.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
@@ -56,13 +56,13 @@ double double_step(double magnitude) {
   return std::nextafter(magnitude, std::numeric_limits<double>::infinity()) - magnitude;
 }
 
-/// Places in the frame that methods run in.
+/// Positions in the frame of methods.
 class MethodFrame {
  public:
   explicit MethodFrame(const Samples& samples)
       : T_local_world_(samples.sequence().method_frame()) {}
 
-  /// "123,456 m from where the first scan was" for a place that is out of reach; else nothing.
+  /// "123,456 m from where the first scan was" for a position that is out of range; else empty.
   [[nodiscard]] std::optional<std::string> too_far(const Eigen::Vector3d& world) const {
     const double apart = largest(T_local_world_ * world);
     if (apart <= kUsualReach) return std::nullopt;
@@ -93,7 +93,7 @@ std::optional<Finding> far_position(const Samples& samples, const MethodFrame& f
 }
 
 std::optional<Finding> far_point(const Samples& samples, const MethodFrame& frame) {
-  if (samples.point_scale() != 1.0) return std::nullopt;  // Millimetres are found elsewhere.
+  if (samples.point_scale() != 1.0) return std::nullopt;  // Another check finds millimetres.
   for (const auto& [index, scan] : samples.scans()) {
     for (std::size_t i = 0; i < scan.size(); ++i) {
       const Eigen::Vector3d point = scan.points[i].cast<double>();
@@ -143,7 +143,7 @@ std::string evidence_text(const GravityEvidence& evidence) {
       up_text(evidence.upright));
 }
 
-/// Poses that do not fit the scans say nothing about up.
+/// Whether up can be checked. Poses that do not fit the scans are no evidence on up.
 bool can_tell_up(Samples& samples) {
   return samples.point_scale() == 1.0 && pose_verdict(samples).check.empty();
 }
@@ -161,7 +161,7 @@ std::vector<Finding> look_at_axes(Samples& samples) {
                                up_text(up.direction), evidence_text(evidence))}};
 }
 
-/// What a user said against what the scans show.
+/// Compares the user's up direction with the scans.
 std::vector<Finding> look_for_wrong_up(Samples& samples) {
   constexpr double kContradiction = 15.0;  // degrees
   const UpDirection up = samples.sequence().up();
@@ -180,7 +180,7 @@ double float_step(double magnitude) {
   return static_cast<double>(std::nextafter(value, 2.0F * value) - value);
 }
 
-/// Points of a far world that were float32 once lie on a coarse lattice, however they are stored.
+/// Finds points on a coarse lattice: they are far from the origin and were float32 at some time.
 std::vector<Finding> look_for_coarse_points(Samples& samples) {
   constexpr double kCoarse = 0.007, kExact = 0.02;
   if (!samples.points_in_world()) return {};

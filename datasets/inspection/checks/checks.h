@@ -10,24 +10,22 @@
 
 namespace raymoval::inspection {
 
-/// A defect that inspection looks for.
+/// A check for one kind of defect.
 struct Check {
   std::string name;
-  std::string finds;     ///< What is wrong with the data, a sentence without its full stop.
-  std::string expected;  ///< What good data has there.
-  std::string remedy;    ///< What to do, in general; a finding may say it with names and numbers.
-  /// Findings with at least `what` filled in; `where`, `expected` and `remedy` default to the
-  /// pose source and frames, and to the texts above.
+  std::string finds;     ///< The defect, as a sentence without its full stop.
+  std::string expected;  ///< The property of good data.
+  std::string remedy;    ///< General remedy; a finding may have names and numbers.
+  /// Returns findings with at least `what`. Default for `where` are the pose source and frames, for
+  /// `expected` and `remedy` the texts above.
   std::function<std::vector<Finding>(Samples&)> look;
   Consequence consequence = Consequence::kWarned;
 };
 
-/// The check that tells of scans without a pose, also where too many have none to open the
-/// sequence.
+/// The check for scans without a pose, also if too many lack one to open the sequence.
 inline constexpr const char* kMissingPoses = "scans-without-poses";
 
-/// The parts of the table of checks, each in a file of its own. Those of poses share one
-/// `pose_verdict`.
+/// The parts of the table of checks. Checks of poses share one `pose_verdict`.
 std::vector<Check> pose_checks();
 std::vector<Check> point_checks();
 std::vector<Check> label_checks();

@@ -16,15 +16,15 @@ namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kMostSurfels = 1500;
-/// A direction in which fewer surfels than this hold a scan is not told by them: some are wrong,
-/// and normals of uneven ground point a little along it.
+/// Least number of surfels that constrain a direction: some are wrong, and normals of uneven ground
+/// point a little along it.
 constexpr double kFewestHolding = 12.0;
-/// A motion is another one if it turns by so much more or less, ...
+/// A motion differs if its rotation differs by more than this, radians, ...
 constexpr double kOtherTurn = 5.0 * kDegree;
-/// ... or goes so many metres elsewhere along what holds the scans. Roads rise by up to this share.
+/// ... or its translation along constrained directions, metres. Roads rise by up to `kSlope`.
 constexpr double kOtherShift = 0.2, kSlope = 0.2;
 
-/// A vehicle goes ahead by up to 3 m between scans.
+/// Adds forward motions of up to 3 m between scans.
 void add_drives(std::vector<Pose>& starts) {
   for (const double ahead : {0.7, 1.4, 2.2, 3.0}) {
     Pose drive = Pose::Identity();
@@ -33,7 +33,7 @@ void add_drives(std::vector<Pose>& starts) {
   }
 }
 
-/// The motion of a body that the sensor may be turned on, about z.
+/// Adds the motion of the body for rotations of the sensor about z.
 void add_turned(const Pose& motion, std::vector<Pose>& starts) {
   constexpr int kTurns = 8;
   for (int k = 1; k < kTurns; ++k) {
@@ -73,7 +73,7 @@ double PairFit::agreement(const ScanPair& pair, const Pose& motion) const {
 void PairFit::find_best(const std::vector<PoseHypothesis>& hypotheses) {
   best_.assign(samples_.pairs().size(), 0.0);
   motions_.assign(samples_.pairs().size(), Pose::Identity());
-  Pose last = Pose::Identity();  // Of neighbours, a guess for scans farther apart.
+  Pose last = Pose::Identity();  // Motion of neighbours, a guess for scans farther apart.
   for (std::size_t k = 0; k < samples_.pairs().size(); ++k) {
     const ScanPair& pair = samples_.pairs()[k];
     const auto& poses = samples_.poses();
@@ -146,7 +146,7 @@ Pose given_motion(const std::vector<Pose>& poses, const ScanPair& pair) {
   return poses[pair.from].inverse() * poses[pair.to];
 }
 
-/// Without a sign before a zero.
+/// Rounds to `step`, without a sign before a zero.
 std::string rounded_text(double value, double step) {
   const double rounded = std::round(value / step) * step;
   return number_text(std::round((rounded == 0.0 ? 0.0 : rounded) * 1e5) / 1e5);
@@ -166,7 +166,7 @@ bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>
 
 namespace {
 
-/// R_body_sensor for a sensor at `position` on the body: about z, and any.
+/// R_body_sensor for a sensor at `position` on the body: the best about z, and the best of all.
 std::array<Eigen::Matrix3d, 2> turns_on_body(const std::vector<Pose>& poses,
                                              const std::vector<SeenMotion>& seen,
                                              const Eigen::Vector3d& position) {

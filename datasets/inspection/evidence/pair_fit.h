@@ -13,30 +13,30 @@
 
 namespace raymoval::inspection {
 
-/// Below this agreement two scans do not show enough of the same.
+/// Below this agreement, two scans do not have enough in common.
 inline constexpr double kTooLittle = 0.25;
 
-/// Metres at which a turn moves what is seen: it makes turns and shifts comparable.
+/// Lever arm, metres: converts rotations to distances, to compare them with translations.
 inline constexpr double kTurnLever = 10.0;
 
-/// A motion of the sensor that two scans show, without their poses.
+/// A motion of the sensor from two scans, without their poses.
 struct SeenMotion {
   ScanPair pair;
   Pose motion = Pose::Identity();  ///< T_from_to.
 };
 
-/// Those of some surfels that are poles.
+/// The poles among `surfels`.
 std::vector<Surfel> poles_of(const std::vector<Surfel>& surfels);
 
-/// Surfels of a scan that are compared with another one; some of them, if there are many.
+/// The surfels of a scan for comparisons: a subset if there are many.
 std::vector<Surfel> thinned(const std::vector<Surfel>& all);
 
-/// The pairs of scans, ready to be compared under any poses.
+/// The pairs of scans, to compare them under any poses.
 class PairFit {
  public:
   explicit PairFit(const Samples& samples);
 
-  /// Mean agreement over all pairs, each at most its best.
+  /// Mean agreement over all pairs; each is at most the best agreement of the pair.
   template <class PoseOf>
   [[nodiscard]] double share(PoseOf&& pose_of) const {
     double sum = 0.0, most = 0.0;
@@ -49,12 +49,12 @@ class PairFit {
     return most > 0.0 ? sum / most : 1.0;
   }
 
-  /// Registers each pair from the motions given and from guesses at the sensor's own.
+  /// Registers each pair, starting from the motions of `hypotheses` and from guesses.
   void find_best(const std::vector<PoseHypothesis>& hypotheses);
   [[nodiscard]] double mean_best() const;
   [[nodiscard]] bool says_something() const;
-  /// Whether most of the pairs that agree enough contradict some poses. A narrow view of a road may
-  /// have nothing but the ground and a rail, which look alike wherever along them it is.
+  /// Whether most of the pairs with enough agreement contradict some poses. A narrow view of a road
+  /// may have only the ground and a rail, which do not constrain the motion along them.
   template <class PoseOf>
   [[nodiscard]] bool contradict(PoseOf&& pose_of) const {
     std::size_t agree = 0, contrary = 0;
@@ -66,8 +66,8 @@ class PairFit {
     }
     return 2 * contrary > agree;
   }
-  /// Whether poles, of which traffic has none, agree better under some poses than under the motions
-  /// found. Where all drive alike, the sensor seems to stand among those who drive along.
+  /// Whether poles agree better under some poses than under the registered motions. Among vehicles
+  /// of one speed, registration may find no motion; but vehicles have no poles.
   template <class PoseOf>
   [[nodiscard]] bool poles_prefer(PoseOf&& pose_of) const {
     double preferred = 0.0;
@@ -80,39 +80,39 @@ class PairFit {
     }
     return preferred > 0.0;
   }
-  /// The motions of the pairs that agree enough, as `find_best` found them.
+  /// The registered motions of the pairs with enough agreement.
   [[nodiscard]] std::vector<SeenMotion> seen_motions() const;
 
  private:
   [[nodiscard]] double agreement(const ScanPair& pair, const Pose& motion) const;
-  /// Whether a motion turns otherwise than the one found for pair `k`, or is another one along a
-  /// direction that the scans tell.
+  /// Whether a motion differs from the registered motion of pair `k` in rotation, or along a
+  /// direction that the scans constrain.
   [[nodiscard]] bool contradicts(std::size_t k, const Pose& motion) const;
   Pose best_of(const ScanPair& pair, const std::vector<Pose>& starts, double& best) const;
 
   const Samples& samples_;
   std::map<std::size_t, SurfaceMap> maps_;
   std::map<std::size_t, std::vector<Surfel>> moving_;
-  std::vector<double> best_;   ///< Agreement, by pair.
-  std::vector<Pose> motions_;  ///< Where it is reached, by pair.
+  std::vector<double> best_;   ///< Best agreement, by pair.
+  std::vector<Pose> motions_;  ///< Motion of the best agreement, by pair.
 };
 
-/// Whether the sensor turns by about the angles that its poses turn by, about whatever axis. This
-/// does not depend on how the sensor is turned on the body that has the poses.
+/// Whether the rotation angles of the sensor are about those of its poses; axes may differ. This
+/// does not depend on the rotation of the sensor on the body.
 bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>& seen);
 
-/// T_body_sensor under which the poses of a body move as the scans do (hand-eye calibration, Park
-/// and Martin 1994, with turns and ways weighed by `kTurnLever`): first with the best turn about z,
-/// then with the best of all turns, which a motion along nearly one line leaves open. The position
-/// is 0 in directions that the turns of the body do not show; there it changes no motion, either.
-/// Nothing if the scans hardly move.
+/// T_body_sensor that maps the motion of the poses to the motion of the scans (hand-eye
+/// calibration, Park and Martin 1994, with rotations weighted by `kTurnLever`): first with the best
+/// rotation about z, then with the best of all rotations, which a nearly straight motion does not
+/// determine. The position is 0 in directions that the rotations of the body do not constrain;
+/// there it changes no motion. Empty if the scans hardly move.
 std::vector<Pose> mounts_on_body(const std::vector<Pose>& poses,
                                  const std::vector<SeenMotion>& seen);
 
 /// "90 degrees about z", or roll, pitch and yaw.
 std::string turn_text(const Eigen::Matrix3d& turn);
 
-/// "0.85,0,0,0,0,0.70711,0.70711": what `--T-sensor` says of it.
+/// "0.85,0,0,0,0,0.70711,0.70711": the argument of `--T-sensor`.
 std::string mounting_text(const Pose& mount);
 
 }  // namespace raymoval::inspection

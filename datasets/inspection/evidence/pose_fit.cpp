@@ -16,21 +16,21 @@
 namespace raymoval::inspection {
 namespace {
 
-/// Share of the best agreement that good poses reach; a drift of 10 cm between the scans of a pair
-/// stays above it.
+/// Share of the best agreement that good poses reach. With a drift of 10 cm between the scans of a
+/// pair, the share is higher.
 constexpr double kGood = 0.65;
-/// Share that a hypothesis must reach, and by how much it has to beat the given poses.
+/// Share that a hypothesis must reach, and its least advantage over the given poses.
 constexpr double kNamed = 0.65;
 constexpr double kBetter = 0.15;
 /// Below this share, and with no hypothesis that explains it, poses and scans do not belong
 /// together.
 constexpr double kForeign = 0.5;
-/// What explains the scans with fewer numbers of its own is preferred up to so much less of a
-/// share.
+/// A simpler hypothesis, with fewer fitted parameters, is preferred if its share is lower by at
+/// most this.
 constexpr double kSimpler = 0.03;
 
-/// Surfels of one group whose coordinate along its axis, times `sign`, lies within the fullest half
-/// metre beyond 0.3 m, as a share of all planes; `beyond` counts those farther out.
+/// Share of all planes that lie in the fullest half metre beyond 0.3 m along the axis of `group`,
+/// times `sign`; `beyond` is the share farther out.
 double fullest_level(const Samples& samples, Surfel::Group group, double sign, double& beyond) {
   constexpr double kLevel = 0.5, kNearest = 0.3;
   std::map<int, std::size_t> levels;
@@ -53,7 +53,7 @@ double fullest_level(const Samples& samples, Surfel::Group group, double sign, d
   return static_cast<double>(fullest->second) / static_cast<double>(planes);
 }
 
-/// Extent of the points of all scans along `axis`, a twentieth left out at either end.
+/// Extent of the points of all scans along `axis`, without a twentieth at either end.
 double extent(const Samples& samples, Eigen::Index axis) {
   std::vector<float> values;
   for (const auto& [index, scan] : samples.scans()) {
@@ -64,8 +64,8 @@ double extent(const Samples& samples, Eigen::Index axis) {
   return static_cast<double>(values[values.size() - 1 - twentieth] - values[twentieth]);
 }
 
-/// Whether the ground lies along +y, as in camera axes, and not along -z. A few beams (VLP-16) show
-/// no plane of ground beside long walls; but then the scan is wide along y.
+/// Whether the ground is along +y, as in camera axes, and not along -z. With few beams (VLP-16) and
+/// long walls, there is no plane of ground; but then the scan is wide along y.
 bool in_camera_axes(Samples& samples) {
   double beyond_y = 0.0, beyond_z = 0.0;
   const double y = fullest_level(samples, Surfel::Group::kNormalY, 1.0, beyond_y);
@@ -76,8 +76,8 @@ bool in_camera_axes(Samples& samples) {
   return extent(samples, 1) < 0.7 * extent(samples, 2);
 }
 
-/// Motions alone do not tell points in camera axes from poses that were taken to a camera. Points
-/// and poses that are both in camera axes fit each other, and nothing is wrong.
+/// Distinguishes points in camera axes from poses of a camera, which have the same motions. If
+/// points and poses are both in camera axes, they fit each other, and there is no defect.
 void look_at_axes(Samples& samples, PoseVerdict& verdict) {
   if (verdict.check != "lidar-poses-as-camera" || !in_camera_axes(samples)) return;
   verdict.what =
@@ -90,8 +90,8 @@ std::string percent(double share) {
   return fixed_text(100.0 * share, 0) + " %";
 }
 
-/// Whether the points go where the poses go, as points of the world frame do. Traffic that drives
-/// along and a vehicle in view agree without poses, but stay around the sensor.
+/// Whether the points move along with the poses, like points in the world frame. Traffic of the
+/// same speed and the ego vehicle agree without poses, but stay around the origin.
 bool points_follow_poses(const Samples& samples) {
   constexpr double kFewest = 2.0;
   const auto& first = samples.scans().begin()->second;
@@ -106,13 +106,13 @@ bool is_identity(const PoseHypothesis& hypothesis) {
   return hypothesis.check == "points-in-world" || hypothesis.check == "viewpoint-twice";
 }
 
-/// A hypothesis and the share that it reaches.
+/// A hypothesis and its share.
 struct Reached {
   PoseHypothesis hypothesis;
   double share = 0.0;
 };
 
-/// That under which the scans agree best.
+/// The hypothesis under which the scans agree best.
 Reached best_of(const Samples& samples, const PairFit& fit,
                 const std::vector<PoseHypothesis>& hypotheses) {
   const bool in_world = points_follow_poses(samples);
@@ -188,8 +188,8 @@ std::optional<PoseHypothesis> time_hypothesis(Samples& samples) {
   return hypothesis;
 }
 
-/// The hypothesis that explains the scans best. Two are fitted to the scans (the turn of a sensor
-/// on a body, a shift of the clock); one that is not is preferred if it does nearly as well.
+/// The hypothesis that explains the scans best. Two kinds are fitted to the scans (the rotation of
+/// a sensor on a body, a time offset); another one is preferred if it is nearly as good.
 Reached best_hypothesis(Samples& samples, const PairFit& fit,
                         std::vector<PoseHypothesis> hypotheses) {
   const std::vector<SeenMotion> seen = fit.seen_motions();

@@ -7,19 +7,19 @@
 
 namespace raymoval::inspection {
 
-/// Says why the scans do not agree under the given poses, if they do not.
+/// Finds the defect if the scans do not agree under the given poses.
 ///
-/// For some pairs of near scans, three agreements are compared: that under the given poses, that
-/// under each hypothesis, and the best that registration of the two scans reaches from any start.
-/// The given poses are good if they come near to the best. Else the hypothesis that does names the
-/// defect; if none does, poses and scans do not belong together. Where registration itself finds
-/// little in common (empty fields, a blocked sensor), nothing is said.
+/// For some pairs of near scans, three agreements are compared: under the given poses, under each
+/// hypothesis, and the best agreement of registration from any start. The given poses are good if
+/// their agreement is close to the best. Else a hypothesis with a close agreement names the defect;
+/// without one, poses and scans do not belong together. If registration finds little in common
+/// (empty fields, a blocked sensor), the verdict is empty.
 const PoseVerdict& pose_verdict(Samples& samples);
 
-/// Whether it makes sense to measure how well poses fit: there are two scans or more, in metres,
-/// and `pose_verdict` is empty.
+/// Whether the fit of poses can be measured: there are two scans or more, in metres, and
+/// `pose_verdict` is empty.
 bool can_measure_fit(Samples& samples);
-/// How well poses fit; without pairs where that cannot be measured.
+/// The fit of the poses; without pairs if it cannot be measured.
 const registration::PoseFit& measured_fit(Samples& samples);
 
 /// Median of every tenth point of a scan, coordinate by coordinate.

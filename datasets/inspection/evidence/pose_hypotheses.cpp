@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Metres from scan to scan that no vehicle goes, also if one scan a second is kept: beyond them
-/// another unit is worth a thought.
+/// Distance between scans beyond which another unit is tried, metres: no vehicle moves so far, even
+/// at one scan per second.
 constexpr double kTooFast = 50.0;
 
 double longest_step(const std::vector<Pose>& poses) {
@@ -34,7 +34,7 @@ Pose with_rotation(const Pose& pose, const Matrix3d& rotation) {
   return result;
 }
 
-/// The quaternion's columns were written in the other order than they were read in.
+/// The rotation if the quaternion's columns are read in the other order.
 Matrix3d reordered_quaternion(const Matrix3d& rotation, bool written_w_first) {
   const Eigen::Quaterniond q(rotation);
   return (written_w_first ? Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w())
@@ -43,14 +43,14 @@ Matrix3d reordered_quaternion(const Matrix3d& rotation, bool written_w_first) {
       .toRotationMatrix();
 }
 
-/// Takes points of a LiDAR (x ahead, y left, z up) to a camera (x right, y down, z ahead).
+/// Maps points of a LiDAR (x ahead, y left, z up) to a camera (x right, y down, z ahead).
 Pose camera_axes() {
   Pose C = Pose::Identity();
   C.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   return C;
 }
 
-/// The data set's own camera if its calibration tells one, else the axes alone.
+/// The camera of the calibration if there is one, else the axes alone.
 Pose camera_of(const Samples& samples) {
   const std::string& file = samples.layout().calibration_file;
   if (file.empty() || samples.files().empty()) return camera_axes();
@@ -62,11 +62,11 @@ Pose camera_of(const Samples& samples) {
   } catch (const UnreadableError&) {
     throw;
   } catch (const Error&) {
-    return camera_axes();  // The row is not used where the poses are said to be the LiDAR's.
+    return camera_axes();  // With poses_are_lidar, the row is not used.
   }
 }
 
-/// Whether the poses are written with quaternions; in memory anything may have been.
+/// Whether the poses are written with quaternions; true if unknown.
 bool have_quaternions(const Samples& samples) {
   if (samples.files().empty() || samples.has_viewpoints()) return true;
   const auto folder = samples.files().front().path.parent_path();
@@ -77,8 +77,8 @@ bool have_quaternions(const Samples& samples) {
   return true;
 }
 
-/// Points in camera axes under poses of the LiDAR move like LiDAR points under poses taken to a
-/// camera, and the other way round, so each motion stands here once.
+/// Points in camera axes with poses of the LiDAR move like LiDAR points with poses of a camera, and
+/// vice versa, so each motion is added once.
 void add_frame_hypotheses(const std::vector<Pose>& poses, const Pose& C,
                           std::vector<PoseHypothesis>& all) {
   all.push_back({"camera-frame", "if the poses are those of a camera (x right, y down, z ahead)",

@@ -9,15 +9,15 @@
 
 namespace raymoval::inspection {
 
-/// One way in which poses go wrong, undone: the pose that scan `i` would have.
+/// A correction of one kind of wrong poses: the corrected pose of scan `i`.
 ///
-/// A rigid motion that the points themselves are missing (points in camera axes, VIEWPOINT applied
-/// twice) is part of it, for only the product of both tells where points come to lie.
+/// It includes a rigid motion that the points lack (points in camera axes, VIEWPOINT applied
+/// twice), because only the product of both places the points.
 struct PoseHypothesis {
   std::string check;   ///< Check that is reported if the scans agree under it.
   std::string phrase;  ///< "the scans agree ... <phrase>".
   std::function<Pose(std::size_t)> pose;
-  std::string remedy = {};  ///< With numbers; empty: what the check says in general.
+  std::string remedy = {};  ///< With numbers; empty: the remedy of the check.
 };
 
 /// Poses whose numbers were read in another form than they were written in.
@@ -33,8 +33,8 @@ struct MisreadPoses {
 /// @throws DataError if the pose file cannot be read
 std::vector<MisreadPoses> misread_poses(const Samples& samples);
 
-/// All that are worth trying for these poses; refers to `samples.poses()`.
-/// @throws DataError as file_kind.h says if the calibration or the poses cannot be read
+/// All plausible hypotheses for these poses; refers to `samples.poses()`.
+/// @throws DataError as in file_kind.h if the calibration or the poses cannot be read
 std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples);
 
 }  // namespace raymoval::inspection

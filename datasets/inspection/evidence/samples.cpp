@@ -13,7 +13,7 @@ namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kReferences = 6;
-/// Distances in scans: near enough to overlap, far enough for a slow sensor to have moved.
+/// Distances in scans: near enough to overlap, far enough that a slow sensor has moved.
 constexpr std::size_t kSteps[] = {1, 3, 8};
 
 }  // namespace
@@ -71,8 +71,8 @@ void Samples::measure_range() {
   for (const auto& [index, scan] : scans_) {
     const std::size_t step = std::max<std::size_t>(1, scan.size() / 1000);
     for (std::size_t i = 0; i < scan.size(); i += step) {
-      // In the world frame of a stored pose far from the origin a wrong pose shifts all points;
-      // the spread around their own middle does not depend on it.
+      // In a world frame, a wrong pose shifts all points; the spread around their middle does not
+      // depend on it.
       ranges.push_back(static_cast<double>((scan.points[i] - scan.points[scan.size() / 2]).norm()));
     }
   }
@@ -81,7 +81,7 @@ void Samples::measure_range() {
 }
 
 void Samples::settle_point_unit() {
-  // No sensor on the ground has half of its returns beyond so many metres.
+  // No sensor on the ground has half of its returns beyond this distance, metres.
   constexpr double kFarthestMedian = 400.0;
   if (median_range_ < kFarthestMedian) return;
   point_scale_ = 0.001;

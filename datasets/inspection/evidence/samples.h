@@ -17,23 +17,23 @@
 
 namespace raymoval::inspection {
 
-/// Two scans that see much of the same.
+/// Two scans with much overlap.
 struct ScanPair {
   std::size_t from = 0, to = 0;  ///< `from` < `to`, positions in the sequence.
 };
 
-/// How the poses, or the frame of the points, would have to change for the scans to agree.
+/// The change of the poses, or of the frame of the points, that makes the scans agree.
 struct PoseVerdict {
-  std::string check;        ///< Name of the check that reports it; empty if nothing is wrong.
-  std::string what;         ///< What the numbers say.
-  std::string remedy = {};  ///< With numbers; empty: what the check says in general.
+  std::string check;        ///< Name of the check that reports it; empty without a defect.
+  std::string what;         ///< The defect, with numbers.
+  std::string remedy = {};  ///< With numbers; empty: the remedy of the check.
 };
 
-/// What the checks look at: the poses and files of the whole sequence, and about thirty scans,
-/// evenly spread, with their points. The data is only read.
+/// The input of checks: the poses and files of the whole sequence, and the points of about thirty
+/// scans, evenly spread. The data is only read.
 class Samples {
  public:
-  /// @param threads for what reads more scans
+  /// @param threads for checks that read more scans
   /// @throws DataError if a scan cannot be read; Cancelled
   Samples(const Sequence& sequence, int threads, const std::atomic<bool>* cancel);
 
@@ -42,27 +42,27 @@ class Samples {
   [[nodiscard]] const std::atomic<bool>* cancel() const { return cancel_; }
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
   [[nodiscard]] const std::vector<Pose>& poses() const { return poses_; }
-  /// Files of all scans; empty for a sequence that is not read from scan files.
+  /// Files of all scans; empty if the sequence has no scan files.
   [[nodiscard]] const std::vector<FrameEntry>& files() const { return files_; }
-  /// Scans that were read, by position. Points are metres (see `point_scale`).
+  /// Scans that were read, by position. Points are in metres (see `point_scale`).
   [[nodiscard]] const std::map<std::size_t, Scan>& scans() const { return scans_; }
-  /// Some of them, evenly spread.
+  /// At most `most` of these scans, evenly spread.
   [[nodiscard]] std::vector<Scan> some_scans(std::size_t most) const;
   [[nodiscard]] const std::vector<ScanPair>& pairs() const { return pairs_; }
-  /// What the points were multiplied with to be metres: 1, or 0.001 where half of them lie farther
-  /// away than metres can be.
+  /// Factor from stored points to metres: 1, or 0.001 if half of the points are implausibly far for
+  /// metres.
   [[nodiscard]] double point_scale() const { return point_scale_; }
-  /// Half of the points lie farther from the middle of their scan, in the unit as stored.
+  /// Median distance of points from the middle of their scan, in the stored unit.
   [[nodiscard]] double median_range() const { return median_range_; }
-  /// Of any scan; one that is not among `scans` is read for it. @throws DataError as when reading
+  /// The surfels of any scan; reads the scan if it is not in `scans`. @throws DataError as reading
   [[nodiscard]] const std::vector<Surfel>& surfels(std::size_t scan) const;
-  /// The sensor as five of the scans show it, whatever it is called; estimated when first asked
-  /// for.
+  /// The sensor model estimated from five of the scans, independent of its name. The first call
+  /// estimates it.
   [[nodiscard]] const SensorModel& seen_sensor() const;
   [[nodiscard]] const Layout& layout() const { return layout_; }
-  /// Whether each scan file holds its pose.
+  /// Whether each scan file has its pose.
   [[nodiscard]] bool has_viewpoints() const { return layout_.pose_place == PosePlace::kScanFile; }
-  /// Whether these poses were applied to the stored points.
+  /// Whether the stored points are in the world frame.
   [[nodiscard]] bool points_in_world() const {
     return has_viewpoints() && sequence_.records->point_frame() == PointFrame::kWorld;
   }
@@ -74,9 +74,9 @@ class Samples {
   [[nodiscard]] std::string all_frames() const;
   [[nodiscard]] std::string pose_source() const;
 
-  /// The first check that needs it finds it.
+  /// Set by the first check that needs it.
   std::optional<PoseVerdict> pose_verdict;
-  /// The first check that needs it measures it.
+  /// Set by the first check that needs it.
   std::optional<registration::PoseFit> pose_fit;
   std::vector<std::pair<std::string, double>> measures;
 

@@ -15,17 +15,17 @@ namespace raymoval::inspection {
 namespace {
 
 constexpr std::size_t kPairs = 12, kFewestPairs = 4;
-/// The usual distance in metres between the motion that two scans show and the true one.
+/// The usual error of a registered motion, metres.
 constexpr double kUsualNoise = 0.03;
-/// Seconds: shifts that are looked at, and how far apart scans of a pair are at most.
+/// Largest shift, and longest time between the scans of a pair, seconds.
 constexpr double kFarthest = 2.0, kLongest = 1.0;
-/// Seconds by which poses are shifted to see how much their motion depends on the time.
+/// Shift of poses to measure the dependence of their motion on the time, seconds.
 constexpr double kNudge = 0.05;
-/// A shift is beyond doubt from so many seconds and standard deviations on.
+/// Least shift that is clear, in seconds and in standard deviations.
 constexpr double kLeastOffset = 0.025, kDeviations = 4.0;
 constexpr std::size_t kFewestChanged = 3;
 
-/// Metres between two motions, turns at `kTurnLever`.
+/// Distance between two motions, metres; rotations are multiplied by `kTurnLever`.
 double distance(const Pose& a, const Pose& b) {
   const Pose between = a.inverse() * b;
   const double turn = Eigen::AngleAxisd(between.linear()).angle();
@@ -49,7 +49,7 @@ double dependence(const Samples& samples, const ScanPair& pair, double shift) {
   return before && after ? distance(*before, *after) / (2.0 * kNudge) : 0.0;
 }
 
-/// Whether poses are looked up by time, in the frame that the scans have their poses in.
+/// Whether poses are looked up by time, in the frame of the scans' poses.
 bool goes_by_time(const Samples& samples) {
   constexpr double kSame = 1e-3;
   const Sequence& sequence = samples.sequence();
@@ -62,7 +62,7 @@ bool goes_by_time(const Samples& samples) {
   return true;
 }
 
-/// Of each stretch of the sequence the pair whose motion depends most on the time.
+/// For each section of the sequence, the pair whose motion depends most on the time.
 std::vector<ScanPair> telling_pairs(const Samples& samples) {
   const std::vector<Nanoseconds>& stamps = samples.sequence().stamps;
   std::vector<ScanPair> chosen;
@@ -85,7 +85,7 @@ std::vector<ScanPair> telling_pairs(const Samples& samples) {
   return chosen;
 }
 
-/// The standard deviation of a shift that pairs tell whose motions are known to `noise` metres.
+/// The standard deviation of a shift from pairs whose motions have an error of `noise` metres.
 double deviation_of(const Samples& samples, const std::vector<ScanPair>& pairs, double shift,
                     double noise) {
   double squares = 0.0;
@@ -114,7 +114,7 @@ std::optional<SeenMotion> seen_motion(const Samples& samples, const ScanPair& pa
   return seen;
 }
 
-/// What pairs of scans say about shifts.
+/// The evidence of pairs of scans on shifts.
 class ShiftFit {
  public:
   ShiftFit(const Samples& samples, const std::vector<ScanPair>& pairs) : samples_(samples) {
@@ -129,7 +129,7 @@ class ShiftFit {
     for (const SeenMotion& one : seen_) pairs.push_back(one.pair);
     return pairs;
   }
-  /// Distances by pair; negative where the poses do not reach.
+  /// Distances by pair; negative beyond the times of the poses.
   [[nodiscard]] std::vector<double> distances(double shift) const {
     std::vector<double> all;
     for (const SeenMotion& one : seen_) {
@@ -138,8 +138,8 @@ class ShiftFit {
     }
     return all;
   }
-  /// Mean of what each pair is off, a pair that is off by metres counting not much more than
-  /// another one: it may be a wrong registration. Infinite where the poses do not reach.
+  /// Robust mean of the distances: a pair with an error of metres may be a wrong registration and
+  /// counts little more than others. Infinite beyond the times of the poses.
   [[nodiscard]] double cost(double shift) const {
     constexpr double kFar = 0.2;
     double sum = 0.0;
@@ -173,7 +173,7 @@ class ShiftFit {
   std::vector<SeenMotion> seen_;
 };
 
-/// Median of what is known.
+/// Median of the known distances.
 double median_of(std::vector<double> distances) {
   std::erase_if(distances, [](double off) { return off < 0.0; });
   return distances.empty() ? 0.0 : median(std::move(distances));
@@ -185,7 +185,7 @@ std::optional<TimeOffset> find_time_offset(Samples& samples) {
   if (!goes_by_time(samples)) return std::nullopt;
   const std::vector<ScanPair> pairs = telling_pairs(samples);
   if (pairs.size() < kFewestPairs) return std::nullopt;
-  // At a steady motion nothing is read, for nothing could be told.
+  // With a steady motion, no scan is read, because the shift is undetermined.
   if (deviation_of(samples, pairs, 0.0, kUsualNoise) > kLeastOffset) return std::nullopt;
   const ShiftFit fit(samples, pairs);
   if (fit.size() < kFewestPairs) return std::nullopt;

@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Raised whenever the same files would give other bytes.
+/// Increased whenever the same files would give other bytes.
 constexpr const char* kSimulatorVersion = "1";
 
 std::string identity(const SimulationOptions& options, const simulated::NamedText& world,
                      const simulated::NamedText& sensor, std::size_t scans) {
   ContentHasher hasher;
   const auto add = [&](const std::string& text) {
-    hasher.add(std::to_string(text.size()) + ":");  // so that no two lists read the same
+    hasher.add(std::to_string(text.size()) + ":");  // so that different lists differ in the hash
     hasher.add(text);
   };
   add(kSimulatorVersion);
@@ -52,13 +52,13 @@ const char* set_variable(const char* name) {
   return value != nullptr && *value != '\0' ? value : nullptr;
 }
 
-/// A scene that has a place in the cache.
+/// A scene with its place in the cache.
 struct CachedScene {
   simulated::SceneWriting writing;
   fs::path folder;
   bool check_content = true;
 
-  /// Why it has to be made again; only for a folder that is there.
+  /// Why it must be generated again; only for an existing folder.
   [[nodiscard]] std::string problem() const {
     return simulated::scene_folder_problem(folder, writing.identity, check_content,
                                            writing.threads);
@@ -69,7 +69,7 @@ struct CachedScene {
   }
 };
 
-/// @param writing its identity is worked out here
+/// @param writing its identity is computed here
 CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing,
                      bool check_content) {
   const SimulationOptions& options = writing.options;
@@ -84,8 +84,8 @@ CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing
   return {std::move(writing), cache_root / "simulated" / name, check_content};
 }
 
-/// Waits until the lock is held. Without locks on the file system nobody is waited for: two may
-/// make the scene, and one takes its place.
+/// Waits until the lock is held. On a file system without locks it does not wait: two processes may
+/// generate the scene, and one result is kept.
 void wait_for_turn(const CachedScene& scene, FileLock& lock) {
   bool told = false;
   while (lock.take(FileLock::Mode::kExclusive) == FileLock::State::kBusy) {
@@ -98,8 +98,8 @@ void wait_for_turn(const CachedScene& scene, FileLock& lock) {
   }
 }
 
-/// Removes what killed processes left in the cache. A lock that can be taken is nobody's, and goes
-/// with its object.
+/// Removes remains of killed processes from the cache. A lock that can be acquired is unused; its
+/// object removes it.
 void sweep_cache(const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder)) {
     remove_abandoned_part(entry);
@@ -107,7 +107,7 @@ void sweep_cache(const fs::path& folder) {
     try {
       FileLock(entry).take(FileLock::Mode::kExclusive);
     } catch (const DataError&) {
-      // Another user's, in a cache that is shared for reading.
+      // A file of another user, in a cache that is shared for reading.
     }
   }
 }
@@ -129,7 +129,7 @@ void make_scene(const CachedScene& scene) {
   }
   if (scene.is_whole()) return;
   sweep_cache(parent);
-  // Without locks another one may have been faster, with the same bytes.
+  // Without locks, another process may have been faster, with the same bytes.
   simulated::write_scene(scene.writing, scene.folder, [&] { return scene.is_whole(); });
   const std::string problem = scene.problem();
   if (problem.empty()) return;

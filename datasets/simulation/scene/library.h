@@ -23,7 +23,7 @@ const std::vector<BuiltInFile>& built_in_sensors();
 struct NamedText {
   std::string name;
   std::string text;
-  std::string file;  ///< For messages: the path as given, or NAME.json of what is built in.
+  std::string file;  ///< For messages: the path as given, or NAME.json of a built-in file.
 };
 NamedText find_world(const std::string& name_or_path);
 NamedText find_sensor(const std::string& name_or_path);

@@ -44,7 +44,7 @@ const Setter& setter_of(const std::string& key, const std::string& text) {
                    " Expected " + kSceneForm + ".");
 }
 
-/// Scene and options of `text`. A path may hold colons of its own, so it ends behind ".json".
+/// Scene and options of `text`. A path may contain colons, so it ends behind ".json".
 std::pair<std::string, std::string> parts_of(const std::string& text) {
   const std::size_t ending = text.find(".json:");
   if (ending == std::string::npos && text.ends_with(".json") && is_file(text)) return {text, ""};

@@ -16,8 +16,8 @@ inline constexpr const char* kSceneForm =
 /// options. @throws DataError as `is_file`, for example for a file name that is too long
 bool names_scene(const std::string& text);
 
-/// `town` or `town:scans=60,seed=3,sensor=vlp16,pose_noise=0,rolling=skewed`, read. Whether the
-/// sensor exists is not checked here.
+/// Parses `town` or `town:scans=60,seed=3,sensor=vlp16,pose_noise=0,rolling=skewed`. It does not
+/// check whether the sensor exists.
 /// @throws UsageError naming the value, what was expected, and the nearest legal key
 SimulationOptions parse_scene(const std::string& text);
 

@@ -40,8 +40,8 @@ constexpr int kManifestVersion = 1;
                   "); the disk may be full or the folder read-only.");
 }
 
-/// A file that is new and on the disk when this returns. It needs no temporary name: the folder as
-/// a whole is what appears atomically.
+/// Writes and syncs a new file. It needs no temporary name, because the whole folder appears
+/// atomically.
 void write_synced(const fs::path& path, const void* data, std::size_t size) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.valid()) throw_unwritable(path);
@@ -68,7 +68,7 @@ class SceneFolder {
     }
   }
 
-  /// Writes a file and puts it on the disk. Thread-safe.
+  /// Writes and syncs a file. Thread-safe.
   /// @param name relative to the folder, below velodyne/ or labels/ or in the folder itself
   void write(const std::string& name, const void* data, std::size_t size) {
     write_synced(folder_ / name, data, size);
@@ -80,7 +80,7 @@ class SceneFolder {
     write(name, text.data(), text.size());
   }
 
-  /// Writes the list and puts the names of all files on the disk.
+  /// Writes the list and syncs the names of all files.
   void finish(const std::string& identity) {
     nlohmann::ordered_json json;
     json["schema_version"] = kManifestVersion;
@@ -157,7 +157,7 @@ void write_tables(const SimulatedSequence& sequence, SceneFolder& folder) {
   folder.write("calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
 }
 
-/// What is said of the world's axes; nothing of 0 degrees.
+/// A text on the world's axes; empty for 0 degrees.
 std::string angle_text(const std::string& what, double degrees) {
   return degrees == 0.0 ? "" : what + number_text(degrees) + " degrees";
 }
@@ -182,7 +182,7 @@ void write_description(const SimulationOptions& options, const SimulatedSequence
   folder.write("sequence.json", record.dump(2) + "\n");
 }
 
-/// Times (seconds) from which a mover moves or stands, for the whole sequence.
+/// Times (seconds) from which a mover moves or is stationary, for the whole sequence.
 nlohmann::ordered_json moves_of(const SimulatedSequence& sequence, std::size_t mover,
                                 const std::vector<std::vector<MoverTruth>>& states) {
   nlohmann::ordered_json changes = nlohmann::ordered_json::array();
@@ -327,7 +327,7 @@ std::string scene_folder_problem(const fs::path& folder, const std::string& iden
   } catch (const nlohmann::json::exception&) {
     return std::string(kManifestName) + " is damaged";
   } catch (const UnreadableError&) {
-    throw;  // Nobody can say that something is wrong with it.
+    throw;  // The folder may be right.
   } catch (const Error& error) {
     return error.what();
   }

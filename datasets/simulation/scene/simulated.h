@@ -20,21 +20,21 @@ namespace simulated {
 class World;
 }  // namespace simulated
 
-/// What to simulate. The same options give the same bytes, on any number of threads.
+/// Options of a simulation. The same options give the same bytes, on any number of threads.
 struct SimulationOptions {
   std::string scene = "town";  ///< Name of a scene, or path of a scene file (ends in .json).
-  std::string sensor = "";     ///< Name or path; empty = the scene's own.
+  std::string sensor = "";     ///< Name or path; empty = the scene's sensor.
   std::uint64_t seed = 1;      ///< Of movers, noise and poses.
-  std::size_t scans = 0;       ///< 0 = as many as the scene says.
+  std::size_t scans = 0;       ///< 0 = the scene's number.
   double pose_noise = 1.0;     ///< Severity; 0 = perfect poses, 1 = a good LiDAR odometry.
   Rolling rolling = Rolling::kNone;
   bool noise_free = false;  ///< Perfect ranges without loss, for tests.
   /// The axes of the sequence's world, in degrees: turned about z, which is up, and then tilted
-  /// about their own x, so that z is up no more. What the sensor sees stays the same to the bit.
+  /// about the new x, so that z is not up. The scans do not change by a bit.
   double turned_deg = 0.0, tilted_deg = 0.0;
 };
 
-/// What one mover did, for the record and for tests.
+/// The true motion of one mover, for records and tests.
 struct MoverTruth {
   std::uint16_t instance = 0;  ///< Upper half of its label words.
   std::uint16_t semantic = 0;  ///< Lower half.
@@ -45,8 +45,8 @@ struct MoverTruth {
   double speed_mps = 0.0;
 };
 
-/// A simulated sequence, traced when a scan is asked for. Its world frame is at the sensor of scan
-/// 0 (x forward, y left), as SemanticKITTI has it, but levelled: z is up; unless the options turn
+/// A simulated sequence; a scan is traced when it is requested. Its world frame is at the sensor of
+/// scan 0 (x forward, y left), as in SemanticKITTI, but levelled: z is up, unless the options turn
 /// or tilt it. Thread-safe.
 class SimulatedSequence : public ScanSource, public LabelSource {
  public:
@@ -59,7 +59,7 @@ class SimulatedSequence : public ScanSource, public LabelSource {
   [[nodiscard]] virtual double scan_period_s() const = 0;
   [[nodiscard]] virtual RangeLimits range_m() const = 0;
   [[nodiscard]] virtual const std::string& sensor_name() const = 0;
-  /// The world in its own frame, and how it lies in the frame of the sequence.
+  /// The world in its own frame, and the pose of this frame in the frame of the sequence.
   [[nodiscard]] virtual const simulated::World& world() const = 0;
   [[nodiscard]] virtual Pose T_sequence_world() const = 0;
 };
@@ -79,8 +79,8 @@ std::string simulated_scene_text(const std::string& name);
 std::string simulated_sensor_text(const std::string& name);
 
 /// Writes the SemanticKITTI layout: velodyne/, labels/, poses.txt (camera convention), calib.txt,
-/// times.txt, sequence.json, movers.json (who moved when), and manifest.json (name, size and hash
-/// of each file). `folder` appears whole or not at all, also after a power failure.
+/// times.txt, sequence.json, movers.json (when each mover moves), and manifest.json (name, size and
+/// hash of each file). `folder` appears whole or not at all, also after a power failure.
 /// @param cancel checked before each scan
 /// @throws DataError if `folder` exists and is not an empty folder, or cannot be written; Cancelled
 void write_simulated(const SimulationOptions& options, const std::filesystem::path& folder,
@@ -90,24 +90,24 @@ void write_simulated(const SimulationOptions& options, const std::filesystem::pa
 /// @throws ConfigurationError if none of the variables nor HOME is set.
 std::filesystem::path default_cache_root();
 
-/// Folder of the sequence below `cache_root`, written first if it is not there. Its name holds a
-/// hash of scene file, sensor file, options and simulator version.
+/// Folder of the sequence below `cache_root`; generates it if it is missing. Its name has a hash of
+/// scene file, sensor file, options and simulator version.
 ///
-/// The cache may be shared by machines and containers. Who asks for a scene that another process
-/// makes waits for it (a lock in the cache; where the file system has none both make it and one
-/// takes its place). A folder of the cache counts only if it fits its manifest.json: every file is
-/// there with its size and, if `check_content`, its hash, and there is no scan too many. Otherwise
-/// it is made again, which is said.
+/// Machines and containers may share the cache. If another process generates the scene, the call
+/// waits for it (a lock in the cache; on a file system without locks, both generate it and one
+/// result is kept). A folder of the cache is valid only if it fits its manifest.json: every file
+/// has its size and, if `check_content`, its hash, and there is no extra scan. Otherwise it is
+/// generated again, with a message.
 /// @throws as write_simulated; DataError if the cache cannot be written; UnreadableError if it
-/// cannot be read, for then nothing is known to be wrong with what is there
+///   cannot be read, because the folder may be valid then
 std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         const std::filesystem::path& cache_root, int threads,
                                         Progress* progress,
                                         const std::atomic<bool>* cancel = nullptr,
                                         bool check_content = true);
 
-/// Whether `cached_simulation` would find the sequence and make nothing, as far as the names and
-/// sizes of its files tell. @throws as `cached_simulation`
+/// Whether `cached_simulation` would not generate the sequence, by the names and sizes of its
+/// files. @throws as `cached_simulation`
 bool is_cached(const SimulationOptions& options, const std::filesystem::path& cache_root);
 
 }  // namespace raymoval

@@ -9,15 +9,15 @@
 
 namespace raymoval::simulated {
 
-/// What was made last for some scans, so that asking for a scan and then for its labels makes it
-/// once. Thread-safe.
+/// A cache of the last values by scan, so that a scan and its labels are generated once.
+/// Thread-safe.
 template <class Value>
 class LastValues {
  public:
-  /// @param most values that are kept
+  /// @param most number of kept values
   explicit LastValues(std::size_t most) : most_(most) {}
 
-  /// Null if it is not kept.
+  /// The value of a scan; null if it is not kept.
   [[nodiscard]] std::shared_ptr<const Value> find(std::size_t scan) const {
     const std::lock_guard lock(mutex_);
     for (const auto& [known, value] : kept_) {

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-// Embree 3 and 4 by one set of names. CMake says which one it found.
+// One set of names for Embree 3 and 4. CMake defines the version that it found.
 #if RAYMOVAL_EMBREE >= 4
 #include <embree4/rtcore.h>
 #else
@@ -32,7 +32,7 @@ using TraceOptions = RTCIntersectArguments;
 using TraceOptions = RTCIntersectContext;
 #endif
 
-/// @return what Embree is told with each packet of rays that start close to each other
+/// @return Embree's options for packets of rays that start close to each other
 TraceOptions coherent_rays() {
   TraceOptions options;
 #if RAYMOVAL_EMBREE >= 4
@@ -45,8 +45,8 @@ TraceOptions coherent_rays() {
   return options;
 }
 
-/// Finds what eight rays hit first.
-/// @param valid -1 for each ray that counts, else 0
+/// Finds the first hits of eight rays.
+/// @param valid -1 for each valid ray, else 0
 void trace_eight(const int* valid, RTCScene scene, TraceOptions& options, RTCRayHit8& packet) {
 #if RAYMOVAL_EMBREE >= 4
   rtcIntersect8(valid, scene, &packet, &options);
@@ -56,11 +56,12 @@ void trace_eight(const int* valid, RTCScene scene, TraceOptions& options, RTCRay
 }
 
 constexpr std::size_t kPacket = 8;
-constexpr double kNearest = 0.01;  // metres; nothing is nearer to a sensor
+constexpr double kNearest = 0.01;  // metres; no surface is nearer to a sensor
 
-/// @throws std::bad_alloc if the ray tracer got no memory since it was asked last, InternalError
-/// for another of its faults: it goes on with a part of the scene then
-/// @param device null for that of a device that could not be made
+/// Checks for errors since the last check; after an error, Embree continues with a part of the
+/// scene.
+/// @throws std::bad_alloc if the ray tracer got no memory, InternalError for other errors
+/// @param device null for the error of creating a device
 void check_tracer(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
@@ -69,15 +70,14 @@ void check_tracer(RTCDevice device) {
                       std::to_string(static_cast<int>(error)) + ".");
 }
 
-/// The same, for what is certain to have failed.
+/// The same, for a call that has certainly failed.
 [[noreturn]] void fail(RTCDevice device, const char* what) {
   check_tracer(device);
   throw InternalError(std::string("the ray tracer (Embree) cannot ") + what + ".");
 }
 
-/// Builds the search tree on the calling thread alone: it comes out the same every time, and scans
-/// are traced side by side anyway. (Embree's own option for one thread would bind the whole
-/// process.)
+/// Builds the search tree on the calling thread only: the result is deterministic, and scans are
+/// traced in parallel. (Embree's option for one thread would affect the whole process.)
 void commit(RTCScene scene) {
   tbb::task_arena alone(1, 1);
   alone.execute([&] { rtcCommitScene(scene); });
@@ -110,7 +110,7 @@ RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
   return scene;
 }
 
-/// What Embree says of one ray.
+/// Embree's result for one ray.
 struct Found {
   bool any;
   unsigned instance;
@@ -185,7 +185,7 @@ RayTracer::RayTracer(const World& world, double reach, int threads)
 RayTracer::~RayTracer() = default;
 
 struct RayTracer::Moment::State {
-  /// What stands behind an instance of the scene.
+  /// An instance of the scene.
   struct Instance {
     const Mesh* mesh;
     Isometry3d motion;  ///< From the mesh to the moment's frame.

@@ -20,7 +20,7 @@ struct Ray {
   float time = 0.0F;          ///< 0 .. 1 within the moment.
 };
 
-/// What a ray meets first.
+/// The first hit of a ray.
 struct Hit {
   double range = -1.0;  ///< Metres from the ray's origin; negative = nothing.
   double cosine = 1.0;  ///< Of the angle between ray and surface normal.
@@ -29,7 +29,7 @@ struct Hit {
   [[nodiscard]] bool found() const { return range >= 0.0; }
 };
 
-/// Traces rays against the standing tiles of a world (prepared once) and moving parts (per moment).
+/// Traces rays against the static tiles of a world (prepared once) and moving parts (per moment).
 /// Embree finds the triangle in single precision relative to the sensor; the range is then computed
 /// in double precision from the triangle, so it is exact to 0.01 mm and does not depend on the
 /// processor's instruction set.
@@ -42,8 +42,8 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
-  /// The world around `centre` while its parts take the places `samples` (one list of parts for a
-  /// frozen moment, or several at equal steps of time with the same parts in the same order).
+  /// The world around `centre` with its parts at the places `samples`: one list of parts for a
+  /// frozen moment, or several at equal time steps with the same parts in the same order.
   class Moment {
    public:
     Moment(const RayTracer& tracer, const Eigen::Vector3d& centre,

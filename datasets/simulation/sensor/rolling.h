@@ -3,11 +3,11 @@
 
 namespace raymoval {
 
-/// What happens to points taken while the sensor moves.
+/// The handling of points that are measured while the sensor moves.
 enum class Rolling {
   kNone,       ///< A whole scan is taken in one instant.
-  kSkewed,     ///< Each point is in the frame the sensor had when it was taken.
-  kCorrected,  ///< Each point is brought into the frame of the scan's reference time.
+  kSkewed,     ///< Each point is in the sensor frame at its own time.
+  kCorrected,  ///< Each point is in the sensor frame at the scan's reference time.
 };
 
 /// As users write them, in the order of the values.

@@ -14,14 +14,14 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kRollingSamples = 9;      // of the motion within a sweep
-constexpr std::size_t kExtraBeams = 2;  // beside the middle one, where a beam meets an edge
+constexpr std::size_t kExtraBeams = 2;  // beside the middle one, if a beam meets an edge
 
 std::uint64_t word(const Scanner::Options& options, Purpose purpose, std::size_t scan,
                    std::size_t shot) {
   return mix_all({options.seed, static_cast<std::uint64_t>(purpose), scan, shot});
 }
 
-/// `direction` turned by small angles to two sides.
+/// `direction` rotated by small angles about two axes.
 Vector3d nudged(const Vector3d& direction, double first, double second) {
   const Vector3d helper = std::abs(direction.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
   const Vector3d u = direction.cross(helper).normalized();
@@ -89,8 +89,8 @@ Isometry3d Scanner::motion_at(const Aim& aim, double time_s) const {
   return motion;
 }
 
-/// Light that comes back, in units of a white target at 1 m. Rough surfaces fall off slower with
-/// the angle than Lambert's law: the square root fits how far KITTI's sensor sees the road.
+/// Returned light, in units of a white target at 1 m. Rough surfaces fall off slower with the angle
+/// than Lambert's law: the square root fits the range of KITTI's sensor on the road.
 double Scanner::signal(const Hit& hit) const {
   // The extinction that leaves 5 % of light over the visibility, there and back.
   const double air = std::exp(2.0 * std::log(0.05) * hit.range / world_.air().visibility_m);
@@ -98,10 +98,10 @@ double Scanner::signal(const Hit& hit) const {
          std::max(1.0, hit.range * hit.range);
 }
 
-/// Shots that a pane lets through go on to what stands behind it.
+/// Continues shots that pass a pane to the surface behind it.
 void Scanner::pass_glass(const RayTracer::Moment& moment, const std::vector<Ray>& rays,
                          std::size_t index, std::uint64_t salt, std::vector<Hit>& hits) const {
-  constexpr double kBehind = 1e-4;  // metres; the pane itself is not met again
+  constexpr double kBehind = 1e-4;  // metres; skips the pane itself
   constexpr std::size_t kMostPanes = 8;
   if (world_.air().glass_through <= 0.0) return;
   std::vector<std::size_t> at(hits.size());
@@ -127,7 +127,7 @@ void Scanner::pass_glass(const RayTracer::Moment& moment, const std::vector<Ray>
   }
 }
 
-/// Range of a drop before `hit` that is taken for a surface, if there is one.
+/// Range of a drop before `hit` that returns like a surface, if there is one.
 std::optional<double> Scanner::echo(const Hit& hit, std::size_t index, std::size_t shot) const {
   const Air& air = world_.air();
   if (options_.noise_free || air.echo_share <= 0.0) return std::nullopt;
@@ -148,8 +148,8 @@ bool Scanner::returns(const Hit& hit, std::uint64_t random) const {
   return to_unit(random) < (1.0 - sensor_.dropout) * cube / (1.0 + cube);
 }
 
-/// Surfaces nearer to each other than the pulse is long come back as one, at their mean weighted by
-/// light; of what lies farther apart, the brightest.
+/// Blends the hits of a beam. Surfaces within a pulse length give one return, at their mean
+/// weighted by light; of surfaces farther apart, the brightest returns.
 Hit Scanner::blend(const Hit* beams, std::size_t count) const {
   Hit best;
   double best_light = 0.0;
@@ -172,7 +172,7 @@ Hit Scanner::blend(const Hit* beams, std::size_t count) const {
   return best;
 }
 
-/// Where neighbouring shots differ in range, a beam may meet both surfaces: trace more of it.
+/// Traces extra rays of a beam if neighbouring shots differ in range: it may hit both surfaces.
 void Scanner::widen(const RayTracer::Moment& moment, const Aim& aim, std::size_t index,
                     std::vector<Hit>& hits) const {
   std::vector<std::size_t> edges;
@@ -208,7 +208,7 @@ void Scanner::widen(const RayTracer::Moment& moment, const Aim& aim, std::size_t
   }
 }
 
-/// A shot's point at `range`, in the frame that the sweep's points are in.
+/// A shot's point at `range`, in the frame of the sweep's points.
 Vector3d Scanner::point_of(const Aim& aim, std::size_t shot, double range) const {
   const Vector3d point = aim.shots[shot].direction * range;
   if (options_.rolling != Rolling::kCorrected) return point;

@@ -21,13 +21,14 @@ struct Sweep {
   std::vector<std::uint32_t> labels;
 };
 
-/// Turns a world into sweeps of a sensor. Sweep i depends on nothing but i and what is given here.
+/// Simulates sweeps of a sensor in a world. Sweep i depends only on i and the constructor's
+/// arguments.
 class Scanner {
  public:
   struct Options {
     std::uint64_t seed = 1;
     Rolling rolling = Rolling::kNone;
-    bool noise_free = false;  ///< Perfect ranges, no beam width, no loss but by range limits.
+    bool noise_free = false;  ///< Perfect ranges, no beam width, no loss except by range limits.
   };
   using SensorPose = std::function<Eigen::Isometry3d(double)>;  ///< T_world_sensor at a time.
 

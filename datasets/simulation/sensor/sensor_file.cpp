@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-/// More than any sensor takes; what a sweep holds in memory is bounded by it.
+/// Largest number of shots of a sweep, which bounds memory; no sensor has more.
 constexpr double kMostShots = 1e7;
 
 std::vector<double> read_beams(const Fields& f) {
@@ -32,7 +32,7 @@ std::vector<double> read_beams(const Fields& f) {
     for (int i = 0; i < count; ++i) beams.push_back(from + (to - from) * i / (count - 1));
   }
   if (beams.empty()) f.fail("banks", "'banks' or 'elevations_deg' with at least one beam");
-  // A real head's lasers are not mounted at exact steps; the same ones every time.
+  // The lasers of a real head are not mounted at exact steps. The jitter is always the same.
   const double jitter = f.number("elevation_jitter_deg", 0.0, 0.0, 1.0);
   Random random(1, Purpose::kSensor);
   for (double& beam : beams) beam = (beam + jitter * random.normal()) * kDegree;
@@ -84,7 +84,7 @@ std::vector<Shot> spinning_shots(const SensorFile& s, std::size_t scan, std::uin
   for (int c = 0; c < columns; ++c) {
     const double azimuth = 2.0 * kPi * (c + phase) / columns;
     headings.emplace_back(std::cos(azimuth), std::sin(azimuth), 0.0);
-    // The head turns clockwise and looks ahead at the reference time.
+    // The head turns clockwise and faces ahead at the reference time.
     const double signed_turn = azimuth > kPi ? azimuth - 2.0 * kPi : azimuth;
     times.push_back(-s.period_s * signed_turn / (2.0 * kPi));
   }

@@ -30,7 +30,7 @@ void add_wheels(Mesh& mesh, const std::vector<double>& axles, double half_width,
   }
 }
 
-/// Where a cabin stands on a hull: seen from the side, its floor and roof run from back to front.
+/// The place of a cabin on a hull: the extents of its floor and roof from back to front.
 struct Cabin {
   double floor_back, floor_front, roof_back, roof_front, floor_z, roof_z, floor_half, roof_half;
 };
@@ -45,7 +45,7 @@ void add_cabin(Mesh& mesh, const Cabin& c, Paint roof) {
                Vector3d(c.roof_front, -c.roof_half, c.roof_z),
                Vector3d(c.roof_front, c.roof_half, c.roof_z),
                Vector3d(c.roof_back, c.roof_half, c.roof_z)});
-  // Pillars and roof edges are what a laser sees of a cabin besides its panes.
+  // A cabin has pillars and roof edges besides its panes.
   for (const double side : {-1.0, 1.0}) {
     const auto bar = [&](double x0, double z0, double x1, double z1, double half0, double half1) {
       add_tube(mesh, roof, {x0, side * half0, z0}, {x1, side * half1, z1}, 0.05, 0.05, 5);
@@ -56,7 +56,7 @@ void add_cabin(Mesh& mesh, const Cabin& c, Paint roof) {
     const double middle = 0.5 * (c.roof_back + c.roof_front);
     bar(middle, c.floor_z, middle, c.roof_z, c.floor_half, c.roof_half);
   }
-  // Two rows of seats, which are seen only through panes that let light through.
+  // Two rows of seats, visible only through transparent panes.
   for (const double share : {0.28, 0.62}) {
     const double x = c.roof_back + share * (c.roof_front - c.roof_back);
     for (const double side : {-1.0, 1.0}) {
@@ -105,7 +105,7 @@ Body make_van(Random& random) {
                 {Vector2d(-f, 0.3), Vector2d(f, 0.28), Vector2d(f, 0.95), Vector2d(f - 0.6, 1.2),
                  Vector2d(f - 1.35, h), Vector2d(-f + 0.08, h)},
                 w);
-  // Panes a hand's breadth proud of the sheet, so that they are what the laser meets.
+  // Panes are in front of the sheet, so that the laser hits them.
   add_box(mesh, paint_of(Material::kGlass), {f - 1.75, -0.5 * w - 0.01, 1.2},
           {f - 1.0, 0.5 * w + 0.01, h - 0.45});
   add_wheels(mesh, {-0.3 * l, 0.34 * l}, 0.5 * w + 0.01, 0.34);

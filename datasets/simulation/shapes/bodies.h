@@ -10,7 +10,7 @@
 
 namespace raymoval::simulated {
 
-/// A rigid piece of a body and how it moves against the body.
+/// A rigid piece of a body, and its motion relative to the body.
 struct BodyPart {
   enum class Joint {
     kFixed,  ///< Moves with the body.
@@ -25,7 +25,7 @@ struct BodyPart {
   double along_m = 0.0;
 };
 
-/// A thing that can stand or move: its parts, what it is called, and its length and width.
+/// An object that can be stationary or move: its parts, labels, length and width.
 struct Body {
   std::vector<BodyPart> parts;
   std::uint16_t static_label = kLabelOtherObject;
@@ -36,7 +36,7 @@ struct Body {
   double pace_mps = 1.3;  ///< Speed at which limbs swing fully.
 };
 
-/// Names that `make_body` knows, such as car, scooter and pedestrian.
+/// Names for `make_body`, such as car, scooter and pedestrian.
 const std::vector<std::string>& body_kinds();
 
 /// One individual of `kind`; size, shape and paint vary with `random`.
@@ -46,7 +46,7 @@ Body make_body(const std::string& kind, Random& random);
 /// All parts at rest in one mesh, each triangle labelled `label`: for a parked car.
 Mesh resting_mesh(const Body& body, std::uint32_t label);
 
-/// A paint without a label: what a body is labelled depends on how it moves.
+/// A paint without a label: the label of a body depends on its motion.
 constexpr Paint paint_of(Material material) {
   return {material, 0};
 }

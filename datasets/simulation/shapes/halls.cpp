@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands in halls and on markets.
+// Objects in halls and on markets.
 #include "datasets/simulation/shapes/parts.h"
 #include "datasets/simulation/shapes/shapes.h"
 

@@ -10,7 +10,7 @@
 
 namespace raymoval::simulated {
 
-/// What a surface is made of, as far as a laser can tell.
+/// The material of a surface.
 enum class Material : std::uint8_t {
   kAsphalt,
   kConcrete,
@@ -29,19 +29,19 @@ enum class Material : std::uint8_t {
   kCloth,
   kSkin,
   kSign,
-  kPolish,   ///< Of the car that carries the sensor.
-  kPerfect,  ///< Always returns, whatever the range: for tests.
+  kPolish,   ///< Of the ego vehicle.
+  kPerfect,  ///< Always returns, at any range: for tests.
 };
 
 struct MaterialProperties {
   double reflectivity;  ///< Diffuse, at 905 nm, 0 .. 1.
-  double mirror;        ///< Share of shots that leave as from a mirror, without return.
+  double mirror;        ///< Share of shots that are reflected like by a mirror, without return.
 };
 const MaterialProperties& properties(Material material);
 
-/// Semantic ids of SemanticKITTI that the simulator gives.
+/// Semantic ids of SemanticKITTI that the simulator uses.
 enum Label : std::uint16_t {
-  kLabelOutlier = 1,  ///< The vehicle that carries the sensor.
+  kLabelOutlier = 1,  ///< The ego vehicle.
   kLabelCar = 10,
   kLabelBicycle = 11,
   kLabelBus = 13,
@@ -75,13 +75,13 @@ enum Label : std::uint16_t {
   kLabelMovingOtherVehicle = 259,
 };
 
-/// What a surface looks like and is called: material and label word (instance << 16 | semantic).
+/// Material and label word (instance << 16 | semantic) of a surface.
 struct Paint {
   Material material = Material::kPerfect;
   std::uint32_t label = 0;
 };
 
-/// Triangles in metres in a frame near to them; both sides of a triangle return light.
+/// Triangles in metres in a nearby frame; both sides of a triangle return light.
 struct Mesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;

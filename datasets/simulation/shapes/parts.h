@@ -9,7 +9,7 @@
 
 namespace raymoval::simulated {
 
-/// A standing thing of a world. Sizes in metres; 0 = the part's own choice.
+/// A static object of a world. Sizes in metres; 0 = the part's default.
 struct PartSpec {
   std::string part;
   double length_m = 0.0;  ///< Along the row.
@@ -17,24 +17,24 @@ struct PartSpec {
   double height_m = 0.0;
 };
 
-/// A wished size, or the usual one.
+/// A given size, or the usual size.
 inline double size_or(double wished, double usual) {
   return wished > 0.0 ? wished : usual;
 }
 
-/// A wished size that varies by a share of `spread`, or one between two others.
+/// A given size that varies by a share of `spread`, or a size between `low` and `high`.
 inline double varied(double wished, double spread, Random& random, double low, double high) {
   return wished > 0.0 ? wished * random.between(1.0 - spread, 1.0 + spread)
                       : random.between(low, high);
 }
 
-/// Names that `make_part` knows.
+/// Names for `make_part`.
 const std::vector<std::string>& part_names();
 
 /// One individual. Frame: x along the road, y away from it (the side towards the road is y = 0 for
-/// buildings, fences and the like; poles, trees and vehicles stand around the origin), z = 0 on the
+/// buildings, fences and the like; poles, trees and vehicles are around the origin), z = 0 on the
 /// ground.
-/// @param instance number of the thing among those that can be counted (vehicles)
+/// @param instance number of the object, if it has an instance id (vehicles)
 /// @throws ConfigurationError for an unknown name, suggesting the nearest one.
 Mesh make_part(const PartSpec& spec, std::uint16_t instance, Random& random);
 
@@ -54,17 +54,17 @@ Mesh make_bush(const PartSpec& spec, Random& random);
 /// A strip of grass and weeds, knee-high.
 Mesh make_tall_grass(const PartSpec& spec, Random& random);
 
-/// A market stall: a counter with goods under an awning. Customers stand at -y.
+/// A market stall: a counter with goods under an awning. Customers are at -y.
 Mesh make_stall(const PartSpec& spec, Random& random);
 /// A pallet rack with goods on most of its places.
 Mesh make_rack(const PartSpec& spec, Random& random);
 Mesh make_pillar(const PartSpec& spec, Random& random);
-/// A slab with beams over a place: `length_m` by `width_m` around it, `height_m` above the ground.
+/// A slab with beams: `length_m` by `width_m` around its place, `height_m` above the ground.
 Mesh make_ceiling(const PartSpec& spec, Random& random);
 
-/// Does a part fill the whole length of its place in a row (fence, hedge), or stand in it?
+/// Whether a part fills the whole length of its place in a row (fence, hedge).
 bool is_continuous(const std::string& part);
-/// Room it needs around its place, to keep it off other roads.
+/// Radius of a part around its place, to keep it off other roads.
 double footprint_radius(const PartSpec& spec);
 
 }  // namespace raymoval::simulated

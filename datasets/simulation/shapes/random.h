@@ -7,7 +7,7 @@
 
 namespace raymoval::simulated {
 
-/// What a random number is for. Streams of different purposes never share numbers.
+/// The purpose of a random number. Streams of different purposes never share numbers.
 enum class Purpose : std::uint64_t {
   kHills = 1,
   kPart,
@@ -55,7 +55,7 @@ constexpr double to_normal(std::uint64_t word) {
   return (sum - 2.0) * 1.7320508075688772;
 }
 
-/// Numbers that depend on nothing but the key: number k is a hash of (key, k).
+/// Numbers that depend only on the key: number k is a hash of (key, k).
 class Random {
  public:
   Random(std::uint64_t seed, Purpose purpose, std::uint64_t a = 0, std::uint64_t b = 0)
@@ -68,7 +68,7 @@ class Random {
   int below(int count) { return static_cast<int>(unit() * count); }
 
   // Compilers evaluate the arguments of a call in different orders, so these functions draw each
-  // coordinate in a statement of its own: z, then y, then x.
+  // coordinate in a separate statement: z, then y, then x.
 
   Eigen::Vector3d normals() {
     const double z = normal(), y = normal(), x = normal();

@@ -34,8 +34,8 @@ double ground_range(const Vector3d& origin, const Vector3d& direction) {
   return direction.z() < 0.0 ? -origin.z() / direction.z() : kNothing;
 }
 
-/// Distance along `direction` to the box, by the slab method: the ray is inside where it is between
-/// both planes of each axis at once. `origin` lies outside.
+/// Distance along `direction` to the box, by the slab method: the ray is inside if it is between
+/// both planes of each axis at once. `origin` is outside.
 double box_range(const Vector3d& origin, const Vector3d& direction, const Vector3d& min,
                  const Vector3d& max) {
   double enter = 0.0, leave = kNothing;
@@ -58,7 +58,7 @@ struct Return {
   std::uint32_t label;
 };
 
-/// The world as the sensor sees it from frame to frame.
+/// The scans of the sensor in the world, frame by frame.
 class StreetScene {
  public:
   StreetScene(const StreetParameters& parameters, std::vector<StreetBox> boxes)
@@ -179,8 +179,8 @@ class StreetScans : public ScanSource, public LabelSource {
  private:
   using Returns = std::vector<Return>;
 
-  /// What the sensor sees in a frame. Casting takes longer than all else that is done with so small
-  /// a scene, so the frames cast last are kept: at most 64, of 16 MiB.
+  /// Returns of a frame. Casting takes longer than all other work on so small a scene, so the last
+  /// frames are kept: at most 64, of 16 MiB.
   [[nodiscard]] std::shared_ptr<const Returns> returns_of(std::size_t frame) const {
     const auto kept = kept_.find(frame);
     return kept ? kept : kept_.keep(frame, scene_.cast(frame));
@@ -189,7 +189,7 @@ class StreetScans : public ScanSource, public LabelSource {
   StreetScene scene_;
   std::vector<std::size_t> frames_;
   SensorModel ideal_;
-  std::unique_ptr<SensorChoice> choice_;  ///< Where the user asks for another sensor.
+  std::unique_ptr<SensorChoice> choice_;  ///< Set if the user gave another sensor.
   mutable simulated::LastValues<Returns> kept_{64};
 };
 
@@ -215,7 +215,7 @@ std::vector<StreetBox> street_boxes() {
       {{20, 6, 0}, {20.2, 6.2, 5}, still, label_word(80, 0)},
       {{36, -6.2, 0}, {36.2, -6, 5}, still, label_word(80, 0)},
       {{26, 4.2, 0}, {30.2, 6, 1.5}, still, label_word(10, 3)},
-      // Comes the other way at 8 m/s and passes the sensor (10 m/s) after about 3.3 s.
+      // Oncoming at 8 m/s; it passes the sensor (10 m/s) after about 3.3 s.
       {{58, -3.9, 0}, {62.2, -2.1, 1.5}, {-8, 0, 0}, label_word(252, 1)},
       // Crosses ahead from right to left, and is 2.5 m to the left when the sensor is level.
       {{41.75, -5.25, 0}, {42.25, -4.75, 1.75}, {0, 1.8, 0}, label_word(254, 2)},
@@ -258,7 +258,7 @@ Sequence make_street(const StreetParameters& parameters, const std::vector<Stree
 Layout street_layout() {
   const auto its_name = [] { return std::vector<std::string>{kStreet}; };
   const auto sequence_name = [](Layout::Path) { return std::string(kStreet); };
-  // It has no options by which it could be told from a folder.
+  // It has no options to distinguish it from a folder.
   const auto unmistakable = [](Layout::Path) {
     return std::string("start where there is no such folder");
   };

@@ -14,7 +14,7 @@ namespace raymoval {
 /// An axis-aligned box of the world that may move at constant velocity.
 struct StreetBox {
   Eigen::Vector3d min, max;                            ///< Corners at time 0, metres, world frame.
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Metres a second.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Metres per second.
   std::uint32_t label = 0;                             ///< Label word (SemanticKITTI).
 };
 
@@ -27,16 +27,16 @@ struct StreetParameters {
   int beams = 32;              ///< Evenly spaced from lowest to highest elevation, both included.
   double elevation_min_deg = -25.0;
   double elevation_max_deg = 10.0;
-  int columns = 720;        ///< Directions a turn; the first looks along -x.
-  double range_max = 60.0;  ///< What lies farther has no point.
+  int columns = 720;        ///< Directions per revolution; the first is along -x.
+  double range_max = 60.0;  ///< Farther surfaces have no point.
 };
 
-/// The street: two walls, two poles, a parked car, a car that comes the other way, and a
-/// pedestrian who crosses. Labels 50, 80, 10, 252 and 254, the three last with instance ids.
+/// The street: two walls, two poles, a parked car, an oncoming car, and a crossing pedestrian.
+/// Labels 50, 80, 10, 252 and 254, the last three with instance ids.
 std::vector<StreetBox> street_boxes();
 
 /// Makes a sequence of `boxes` on the ground, in memory: exact ranges in closed form (ray-plane
-/// and ray-box), exact labels, the same bytes at every call.
+/// and ray-box), exact labels, deterministic.
 /// @param options frames, label rule, ranges, sensor and name; the sensor is the ideal one unless
 ///   the options name another
 /// @throws UsageError if the options name a pose file or the parameters make no scan

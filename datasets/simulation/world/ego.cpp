@@ -21,7 +21,7 @@ constexpr std::uint32_t kArmInstance = 0xFFFE;
 
 Mesh make_hull(const std::string& body) {
   Mesh mesh;
-  // Polished: near KITTI's car hardly a point comes back from it, it only hides the road.
+  // Polished: KITTI's car returns hardly any point; it only hides the road.
   const Paint dark{Material::kPolish, kLabelOutlier};
   if (body == "car") {
     add_extrusion(mesh, dark,
@@ -79,15 +79,15 @@ Mesh make_bucket() {
   return mesh;
 }
 
-/// A bounded wobble of about `size`, from a few sines that do not repeat together.
+/// A bounded wobble of about `size`: a sum of a few sines without a common period.
 double wobble(double time, double size, double phase) {
   return size * (0.5 * std::sin(2 * kPi * 1.13 * time + phase) +
                  0.35 * std::sin(2 * kPi * 2.71 * time + 2.1 * phase) +
                  0.25 * std::sin(2 * kPi * 11.3 * time + 3.7 * phase));
 }
 
-/// How a walking person carries a sensor, about a point on the ground: up and down with each step,
-/// aside and rolling with each second one, and turned slowly to what there is to see.
+/// Motion of a sensor that a walking person carries, about a point on the ground: up and down with
+/// each step, aside and rolling with each second step, and slowly turning.
 Isometry3d gait(const EgoSpec& spec, double time) {
   const double step = 2.0 * kPi * spec.step_hz * time;
   // No two steps are alike.
@@ -109,10 +109,10 @@ Isometry3d gait(const EgoSpec& spec, double time) {
 
 /// Angles of an excavator at one instant, radians.
 struct ArmAngles {
-  double swing;   ///< Of the upper carriage about the vertical.
+  double swing;   ///< Upper carriage about the vertical.
   double boom;    ///< Above the horizontal, at its foot.
-  double stick;   ///< Against the boom.
-  double bucket;  ///< Against the stick.
+  double stick;   ///< Relative to the boom.
+  double bucket;  ///< Relative to the stick.
 };
 
 /// Angles `phase` (0 .. 1) of the way through dig, lift, swing, dump and swing back.

@@ -9,7 +9,7 @@
 
 namespace raymoval::simulated {
 
-/// What carries the sensor.
+/// The vehicle or person that carries the sensor.
 struct EgoSpec {
   Route route;
   std::string body = "car";  ///< car, excavator or none.
@@ -18,7 +18,7 @@ struct EgoSpec {
   double sensor_left_m = 0.0;
   double sensor_pitch_rad = 0.0;  ///< Positive = looking down.
   double sensor_roll_rad = 0.0;   ///< Positive = leaning to the right.
-  /// A person's gait: the body bobs and rocks at the steps, and looks about between them.
+  /// A person's gait: the body bobs and rocks with the steps, and turns slowly.
   double sway_m = 0.0;
   double sway_rad = 0.0;
   double step_hz = 1.9;
@@ -27,16 +27,16 @@ struct EgoSpec {
   double dig_period_s = 18.0;  ///< Of an excavator: one dig, swing, dump, swing back.
 };
 
-/// What carries the sensor: where it is, how it shakes, and what of itself the sensor sees.
+/// The vehicle or person that carries the sensor: its pose, its shaking, and its visible surfaces.
 class Ego {
  public:
   Ego(const EgoSpec& spec, const Ground& ground);
 
   /// True `T_world_sensor`.
   [[nodiscard]] Eigen::Isometry3d sensor_pose(double time) const;
-  /// The vehicle's own surfaces (label 1) and, of an excavator, its moving arm (label 259).
+  /// Adds the vehicle's surfaces (label 1) and an excavator's moving arm (label 259).
   void place(double time, std::vector<PlacedPart>& parts) const;
-  /// Is there road (or path) under the vehicle at `time`?
+  /// Whether there is road (or path) under the vehicle at `time`.
   [[nodiscard]] bool on_route(double time) const { return track_.reaches(track_.along(time)); }
   [[nodiscard]] bool has_arm() const { return spec_.body == "excavator"; }
 

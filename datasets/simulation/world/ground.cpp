@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kBucket = 16.0;  // metres
-constexpr double kReach = 48.0;   // how far from a segment a bucket knows of it
+constexpr double kReach = 48.0;   // metres around a bucket within which it lists segments
 constexpr double kLandTile = 32.0;
 
 std::uint64_t cell_key(long x, long y) {
@@ -89,7 +89,8 @@ Ground::Near Ground::nearest(const Vector2d& p, const Road* except) const {
   for (const Segment& segment : bucket->second) {
     if (segment.road == except) continue;
     const double distance = distance_to(p, segment.a, segment.b);
-    // The carriageway that reaches farthest over the point wins: a road beats another's sidewalk.
+    // The carriageway that extends farthest over the point is used; it takes precedence over a
+    // sidewalk.
     const double edge = distance - 0.5 * segment.road->width_m;
     if (edge < best_clearance) {
       best_clearance = edge;
@@ -119,7 +120,7 @@ double Ground::height(const Vector2d& p) const {
   return base + profile(*near.road, near.distance);
 }
 
-/// Land as its mesh has it: rough, and sunk below the roads that lie over it.
+/// Height of the land mesh: rough, and lowered below roads.
 double Ground::surface(const Vector2d& p) const {
   const double clear = clearance(p);
   Random random(seed_, Purpose::kHills, mix(static_cast<std::uint64_t>(std::lround(p.x() * 8))),

@@ -14,18 +14,18 @@
 
 namespace raymoval::simulated {
 
-/// What light goes through besides empty space.
+/// The medium of the light: glass, fog, rain.
 struct Air {
-  /// Share of shots that a pane lets through, so that they go on to what stands behind it.
+  /// Share of shots that pass a pane and continue to the surface behind it.
   double glass_through = 0.0;
   /// Distance in metres at which 5 % of light is left (the meteorological optical range;
-  /// Koschmieder 1924): rain, fog or dust take the rest, on the way there and on the way back.
+  /// Koschmieder 1924). Rain, fog or dust absorb light on the way there and back.
   double visibility_m = std::numeric_limits<double>::infinity();
-  /// Share of shots that meet a drop or a flake which sends back enough light to be taken for a
-  /// surface, if nothing solid comes before it. Such points are outliers (label 1).
+  /// Share of shots that hit a drop or a flake with enough light for a return, if no surface is
+  /// before it. Such points are outliers (label 1).
   double echo_share = 0.0;
-  /// Mean distance of these drops in metres; they are dense near the sensor and thin out
-  /// exponentially, since only near ones are bright enough.
+  /// Mean distance of these drops in metres. Their density falls exponentially, because only near
+  /// drops are bright enough.
   double echo_range_m = 6.0;
 };
 
@@ -37,7 +37,7 @@ struct Road {
   double crown_m = 0.08;    ///< Height of the middle above the edges.
   double kerb_m = 0.12;     ///< Height of the sidewalk above the edge of the carriageway.
   double sidewalk_m = 2.0;  ///< Width on each side; 0 = none.
-  double verge_m = 4.0;     ///< Strip that leads from the road down into the terrain.
+  double verge_m = 4.0;     ///< Strip from the road down to the terrain.
   bool gravel = false;      ///< Gravel instead of asphalt.
 
   [[nodiscard]] double half_corridor() const { return 0.5 * width_m + sidewalk_m; }
@@ -47,7 +47,7 @@ struct Road {
 struct Terrain {
   double hills_m = 0.0;  ///< Height of the hills above the mean.
   double wavelength_m = 120.0;
-  double margin_m = 70.0;  ///< How far from a road there is land.
+  double margin_m = 70.0;  ///< Extent of the land beside roads.
   double roughness_m = 0.04;
   double grid_m = 2.0;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< Rise of all the land, metres per metre.
@@ -62,7 +62,7 @@ class Ground {
   Ground(const Ground&) = delete;
   Ground& operator=(const Ground&) = delete;
 
-  /// Height of what one stands on at `p`: road, sidewalk or land, without roughness.
+  /// Height of road, sidewalk or land at `p`, without roughness.
   [[nodiscard]] double height(const Eigen::Vector2d& p) const;
   /// Distance to the middle of the nearest road other than `except` within 48 m, minus the half
   /// width of its carriageway and sidewalk: negative on the road.

@@ -21,7 +21,7 @@ struct PlacedPart {
   std::uint32_t label = 0;  ///< Word of all its triangles; 0 = each its own.
 };
 
-/// Where something goes and how fast: along a road, or along points of its own.
+/// The path and speed of a mover: along a road, or along given points.
 struct Route {
   std::string road;                     ///< Empty = `points`.
   double lane_m = 0.0;                  ///< To the left of the road's middle, seen along the road.
@@ -31,7 +31,7 @@ struct Route {
   SpeedProfile speed;
 };
 
-/// When something is in the world at all, seconds.
+/// The time span in which an object is in the world, seconds.
 struct Presence {
   double from_s = -std::numeric_limits<double>::infinity();
   double until_s = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ struct Presence {
   [[nodiscard]] bool is_limited() const { return std::isfinite(from_s) || std::isfinite(until_s); }
 };
 
-/// A route made ready: knows where one is at a time and how one stands on the ground there.
+/// A prepared route: gives the position at a time, and the pose on the ground there.
 class Track {
  public:
   /// @throws ConfigurationError if the route's road does not exist.
@@ -49,10 +49,10 @@ class Track {
   [[nodiscard]] const SpeedProfile& profile() const { return speed_; }
   [[nodiscard]] double length() const { return path_.length(); }
   [[nodiscard]] bool closed() const { return path_.closed(); }
-  /// Does the route exist at distance `s`? An open one ends; a standing start before it does not.
+  /// Whether the route exists at distance `s`. An open route exists from its beginning to its end.
   [[nodiscard]] bool reaches(double s) const;
-  /// Frame on the ground at distance `s`: x along the way, z up, tilted as wheels `wheelbase` and
-  /// `gauge` metres apart stand.
+  /// Frame on the ground at distance `s`: x along the path, z up, with the tilt of wheels
+  /// `wheelbase` and `gauge` metres apart.
   [[nodiscard]] Eigen::Isometry3d frame(double s, double left, double wheelbase,
                                         double gauge) const;
 
@@ -65,20 +65,19 @@ class Track {
   SpeedProfile speed_;
 };
 
-/// Something that follows a track.
+/// An object that follows a track.
 class Mover {
  public:
   Mover(std::string kind, Body body, Track track, double left, std::uint16_t instance,
         Presence presence = {});
 
-  /// False before a route begins and after it ends, and outside its presence: the mover is not in
-  /// the world then.
+  /// Whether the mover is in the world: false before and after its route, and outside its presence.
   [[nodiscard]] bool present(double time) const;
   [[nodiscard]] Eigen::Isometry3d pose(double time) const;
   /// Its parts at `time`, present or not.
   void place(double time, std::vector<PlacedPart>& parts) const;
-  /// Gives the label: an object that moves at any time from 0 to `duration` (seconds), or that
-  /// comes or goes unseen meanwhile, is labelled moving throughout.
+  /// Sets the label: an object that moves, appears or disappears at any time from 0 to `duration`
+  /// (seconds) is labelled moving for the whole sequence.
   void set_label(double duration);
 
   [[nodiscard]] bool moves() const { return moves_; }

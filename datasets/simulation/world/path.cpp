@@ -105,7 +105,7 @@ double SpeedProfile::distance(double time) const {
 
 namespace {
 
-/// Stands from `arrival` to `start` (seconds), drives at the queue's speed before and after.
+/// Stationary from `arrival` to `start` (seconds), with the queue's speed before and after.
 SpeedProfile stop_and_go(const QueueSpec& spec, double arrival, double start) {
   const double ramp = spec.speed_mps / spec.acceleration_mps2;
   return SpeedProfile({{arrival - ramp, spec.speed_mps},
@@ -140,7 +140,7 @@ std::vector<QueuePlace> queue_places(const QueueSpec& spec, const std::vector<do
     if (i < standing) {
       place.speed = go(spec, start);
     } else {
-      // Those who come do so evenly over nine tenths of the time that the heads wait.
+      // Arrivals are spread evenly over nine tenths of the time that the heads wait.
       const double share =
           static_cast<double>(i - standing + 1) / static_cast<double>(count - standing);
       place.speed = stop_and_go(spec, 0.9 * share * spec.start_s, start);

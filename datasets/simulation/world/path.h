@@ -12,7 +12,7 @@
 
 namespace raymoval::simulated {
 
-/// A smooth way over the ground, measured by the distance along it (metres).
+/// A smooth path over the ground, parametrised by the distance along it (metres).
 class Path {
  public:
   Path() = default;
@@ -22,9 +22,9 @@ class Path {
 
   [[nodiscard]] double length() const { return distance_.back(); }
   [[nodiscard]] bool closed() const { return closed_; }
-  /// Position `s` metres along, `left` metres to the left. Beyond an open end it runs straight on.
+  /// Position `s` metres along, `left` metres to the left. Beyond an open end it is straight.
   [[nodiscard]] Eigen::Vector2d at(double s, double left = 0.0) const;
-  /// Unit direction of travel, smooth along the way.
+  /// Unit direction of travel, smooth along the path.
   [[nodiscard]] Eigen::Vector2d direction(double s) const;
   /// Corners of the rounded line and their distances along it.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& points() const { return points_; }
@@ -52,32 +52,32 @@ class SpeedProfile {
   std::vector<double> travelled_;  ///< Up to each knot.
 };
 
-/// Traffic that comes up to a line, stands there nose to tail, and leaves one after another.
+/// Vehicles that arrive at a line, queue there, and leave one after another.
 struct QueueSpec {
   std::string road;
   bool reverse = false;
-  std::vector<double> lanes_m;   ///< A column in each, left of the road's middle, seen along it.
-  double line_m = 0.0;           ///< Distance along the route where the heads of the columns stand.
+  std::vector<double> lanes_m;   ///< One column per lane, left of the road's middle, seen along it.
+  double line_m = 0.0;           ///< Distance along the route of the heads of the columns.
   int count = 10;                ///< In each column.
   NumberRange gap_m{1.0, 3.0};   ///< From bumper to bumper.
   NumberRange side_m{0.0, 0.0};  ///< Left of the middle of the column.
   std::vector<std::pair<std::string, double>> kinds;  ///< With weights.
-  double arrived = 1.0;   ///< Share of each column that stands already when the sequence begins.
+  double arrived = 1.0;   ///< Share of each column that has arrived when the sequence begins.
   double start_s = 10.0;  ///< When the heads may go.
-  NumberRange reaction_s{0.4, 1.2};  ///< Each goes this long after the one before it.
-  double speed_mps = 8.0;            ///< Of those who come and of those who go.
+  NumberRange reaction_s{0.4, 1.2};  ///< Delay of a vehicle's start after the vehicle ahead.
+  double speed_mps = 8.0;            ///< When arriving and leaving.
   double acceleration_mps2 = 2.0;
 };
 
-/// One of a column: where it stands and how it gets there and away.
+/// A vehicle of a column: its place, arrival and departure.
 struct QueuePlace {
   double start_m = 0.0;  ///< Distance along the route at time 0.
   double left_m = 0.0;
   SpeedProfile speed;
 };
 
-/// Places of one column in their order, for bodies of `lengths_m` metres. Nobody ever drives into
-/// the one before: all brake and gain speed alike, and later than those before them.
+/// Places of one column in their order, for bodies of `lengths_m` metres. Vehicles never collide:
+/// all brake and accelerate alike, and later than the vehicles ahead.
 std::vector<QueuePlace> queue_places(const QueueSpec& spec, const std::vector<double>& lengths_m,
                                      Random& random);
 

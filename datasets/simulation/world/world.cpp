@@ -31,12 +31,12 @@ const std::string& chosen_kind(const std::vector<std::pair<std::string, double>>
   return kinds.back().first;
 }
 
-/// A steady `speed`, or one that rests now and then as the flow says.
+/// A steady `speed`, or with the pauses of the flow.
 SpeedProfile paced(const FlowSpec& flow, double speed, double duration, Random random) {
   if (!(flow.stop_every_s.high > 0.0)) return SpeedProfile({{0.0, speed}});
   constexpr double kRamp = 0.5;  // seconds from standing to walking
   std::vector<std::pair<double, double>> knots;
-  // Somewhere in the first stretch, so that not all stop together.
+  // A random time in the first interval, so that not all stop together.
   double time = -random.unit() * flow.stop_every_s.high;
   while (time < duration) {
     knots.emplace_back(time, speed);
@@ -156,7 +156,7 @@ void World::add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t 
   }
 }
 
-/// A vehicle that stands at `at` for as long as it is there.
+/// Adds a vehicle that is stationary at `at` during its presence.
 void World::add_parked(const std::string& kind, const Presence& presence, const Vector2d& at,
                        const Vector2d& along, Random& random) {
   Route route;
@@ -197,7 +197,7 @@ void World::add_flow(const FlowSpec& flow, std::uint64_t seed, std::uint64_t num
   Route route = flow.route;
   const Track whole(route, *ground_);
   const double mean = 0.5 * (flow.speed_mps.low + flow.speed_mps.high);
-  // Those that will come in during the sequence start before the beginning of an open route.
+  // Movers that enter during the sequence start before the beginning of an open route.
   const double end = flow.to_m < 0.0 ? whole.length() : flow.to_m;
   const double fed = whole.closed() ? 0.0 : -flow.speed_mps.high * duration;
   const double begin = flow.from_m.value_or(fed);

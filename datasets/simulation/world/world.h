@@ -23,8 +23,8 @@ struct QueueSpec;
 struct RowSpec;
 struct WorldFile;
 
-/// A square of the standing world. Its mesh is relative to `origin`, so that single precision
-/// stays finer than 0.01 mm kilometres from the origin of the world.
+/// A square of the static world. Its mesh is relative to `origin`, so that single precision is
+/// finer than 0.01 mm even kilometres from the origin of the world.
 struct Tile {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Mesh mesh;
@@ -32,18 +32,18 @@ struct Tile {
                   high = Eigen::Vector3d::Zero();  ///< Bounds in the world.
 };
 
-/// Everything that can be hit, and when it is where.
+/// All surfaces of the world and their motion.
 class World {
  public:
   World() = default;
-  /// Builds what `file` says. The standing parts follow from the file alone, the individuals that
-  /// move also from `seed`; `duration` (seconds) decides what counts as moving.
+  /// Builds the world of `file`. Static parts depend on the file only, movers also on `seed`;
+  /// `duration` (seconds) decides which objects count as moving.
   /// @throws ConfigurationError naming what does not fit.
   World(const WorldFile& file, std::uint64_t seed, double duration);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Puts a standing mesh into the tile of its origin.
+  /// Adds a static mesh to the tile of its origin.
   void add_standing(const Mesh& mesh, const Eigen::Isometry3d& T_world_mesh);
   void add_mover(Mover mover) { movers_.push_back(std::make_unique<Mover>(std::move(mover))); }
   void set_air(const Air& air) { air_ = air; }
@@ -55,8 +55,8 @@ class World {
   [[nodiscard]] const Air& air() const { return air_; }
   [[nodiscard]] const std::optional<Ego>& ego() const { return ego_; }
   [[nodiscard]] const Ground* ground() const { return ground_.get(); }
-  /// All parts that do not stand, once for each of `times` and each time in the same order: those
-  /// of movers that are present at `reference` within `reach` metres of `around`, and of the ego.
+  /// Parts that are not static, for each of `times` in the same order: parts of movers that are
+  /// present at `reference` within `reach` metres of `around`, and of the ego vehicle.
   [[nodiscard]] std::vector<std::vector<PlacedPart>> parts(const std::vector<double>& times,
                                                            double reference,
                                                            const Eigen::Vector3d& around,

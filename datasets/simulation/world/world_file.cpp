@@ -12,7 +12,7 @@
 namespace raymoval::simulated {
 namespace {
 
-/// Metres from the origin along x or y, either way, within which all of a world lies.
+/// Largest distance of a world's objects from the origin along x or y, metres.
 constexpr double kWorldReach = 1e5;
 
 /// Errors of paths and speed profiles, with the place in the file put before them.

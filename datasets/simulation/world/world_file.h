@@ -29,10 +29,10 @@ struct MoverSpec {
 struct FlowSpec {
   Route route;  ///< Its speed is set by `speed_mps`.
   NumberRange speed_mps;
-  NumberRange gap_m;                                  ///< Between one and the next.
+  NumberRange gap_m;                                  ///< Between successive movers.
   std::vector<std::pair<std::string, double>> kinds;  ///< With weights.
-  int group = 1;                                      ///< At most so many together.
-  /// People and cyclists stop now and then: after so long on the way, for so long. 0 = never.
+  int group = 1;                                      ///< Largest group size.
+  /// People and cyclists pause: interval and length of pauses. 0 = never.
   NumberRange stop_every_s, stop_for_s;
   /// Start positions at time 0. Without `from_m` an open route is fed from its beginning for as
   /// long as the sequence lasts; without `to_m` (-1) it is filled to its end.
@@ -47,9 +47,9 @@ struct RowSpec {
   double from_m = 0.0, to_m = -1.0;  ///< -1 = the end.
   NumberRange offset_m;              ///< From the middle of the road.
   NumberRange spacing_m;
-  double share = 1.0;  ///< Of the places that are taken.
+  double share = 1.0;  ///< Of occupied places.
   double turn_rad = 0.0;
-  Presence presence;  ///< Of parked vehicles only; others stand for ever.
+  Presence presence;  ///< Of parked vehicles only; other objects are always there.
   PartSpec part;
 };
 
@@ -60,14 +60,14 @@ struct PlaceSpec {
   PartSpec part;
 };
 
-/// A world as its file says it. Angles in the file are degrees (keys end in _deg).
+/// A world file. Angles in the file are degrees (keys end in _deg).
 struct WorldFile {
   std::string name;
   std::string description;
   std::string sensor;
   int scans = 100;
   NumberRange range_m{2.7, 80.0};
-  std::uint64_t seed = 1;  ///< Of the standing world; movers and noise take the caller's.
+  std::uint64_t seed = 1;  ///< Of the static world; movers and noise use the caller's seed.
   Terrain terrain;
   std::vector<Road> roads;
   std::vector<RowSpec> rows;

@@ -105,7 +105,7 @@ void EstimateMap::vote(const CheckedScan& scan, Part& part) const {
       [&](Number number) { return mean(number); }, part.offers);
 }
 
-/// Where the cells are whose bits are set. Most points of a scan are elsewhere.
+/// The places of the cells whose bits are set. Most points of a scan are elsewhere.
 CoarseCells EstimateMap::places_of(const RankedBits& wanted) const {
   return {1.0 / rules_.options.voxel_size, [&](const auto& visit) {
             cells().for_each([&](Number number, VoxelKey cell) {
@@ -114,7 +114,7 @@ CoarseCells EstimateMap::places_of(const RankedBits& wanted) const {
           }};
 }
 
-/// The points of a scan that are left in certain cells, all of which are in `places_`.
+/// The kept points of a scan in the `wanted` cells, all of which are in `places_`.
 LabelledCloud EstimateMap::points_in(const CheckedScan& scan, const RankedBits& wanted) const {
   const double inverse = 1.0 / rules_.options.voxel_size;
   LabelledCloud cloud;

@@ -97,7 +97,7 @@ TEST_CASE("no method is changed by a shift of the world, or an exchange of its a
     CHECK(differences(here, masks_on(utm.moved, request)) == 0);
     // Rounding of 1e-9 m may put single points into the neighbouring voxel.
     CHECK(differences(here, masks_on(odd.moved, request)) <= points_of(here) / 10000);
-    // The lattice is the same but for quarter turns about z.
+    // The lattice is the same, except for rotations by 90 degrees about z.
     CHECK(differences(here, masks_on(turned.moved, request)) <= points_of(here) / 1000);
   }
 }

@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Whether every element is closed in its place, and nothing that is markup stands in texts.
+/// Whether every element is closed in its place, and texts contain no markup.
 bool is_well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
@@ -143,7 +143,7 @@ TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats")
   // makes an axis from 0.7; x is at 64 + 460 * (2.69897 - 1) / 2 = 454.76 and 48 + 330 - 0.02 / 0.3
   // * 330 = 356.
   CHECK_THAT(svg, Contains("cx=\"454.76\" cy=\"356\""));
-  // y is faster and better: nobody else is on the line.
+  // y is faster and better: no other method is on the line.
   CHECK_THAT(svg, Contains("class=\"front\" points=\"294,48 \""));
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("Points of a sweep carry what they were set to, apart from each other"
 TEST_CASE("Rates over a parameter: each point is where its value and its rate say") {
   RunResults results = two_points();
   CHECK(sweep_chart(results, "erasor").empty());
-  // In the order of the values, whatever the order of the cells.
+  // In the order of the values, for any order of the cells.
   results.sweeps = {{"x", "m", {{"delay", "2"}}}, {"y", "m", {{"delay", "0.5"}}}};
   const std::string svg = sweep_chart(results, "erasor").svg();
   CHECK(is_well_formed(svg));

@@ -137,7 +137,7 @@ TEST_CASE("A crop in which no point lies is refused with the place where the sen
   overview.crop = map.crop = WorldWindow{4, 9, 9, 14};
   CHECK_NOTHROW(map_picture(run, map, {}));
   CHECK_NOTHROW(overview_picture(run, run.cell("two", "oracle:default"), overview, {}));
-  // Where no cell has a result, no point is looked for.
+  // If no cell has a result, no point is searched.
   MapPictureOptions failed = half_metre("broken:default");
   failed.crop = WorldWindow{1000, 2000, 1000, 2000};
   CHECK_NOTHROW(map_picture(run, failed, {}));
@@ -158,7 +158,7 @@ TEST_CASE("A cell that failed is a hatched panel, beside others or alone") {
   MapPictureOptions options = half_metre("broken:default");
   options.only.push_back("noop:default");
   const Canvas image = map_picture(two.kept(), options, {});
-  // Methods stand in the order of the run; the stripes are the only pixels of this grey.
+  // Methods are in the order of the run; the stripes are the only pixels of this grey.
   std::size_t stripes = 0;
   for (int y = 70; y < 190; ++y) {
     for (int x = 0; x < image.width(); ++x) {
@@ -251,7 +251,7 @@ TEST_CASE("A run of somebody else makes no scene") {
   write_run_record(two.run / "run.json", record);
   CHECK_THROWS_WITH(two.kept().open("two", {}), Contains("--simulate"));
   CHECK_FALSE(fs::exists(two.folder.path() / "cache"));
-  // It is made if it is asked for, and is then not what the run was made on.
+  // It is made on request, and then differs from the data of the run.
   CHECK_THROWS_WITH(KeptRun(two.run.string(), "", true).open("two", {}),
                     Contains("its fingerprint is another"));
   CHECK(fs::exists(two.folder.path() / "cache"));

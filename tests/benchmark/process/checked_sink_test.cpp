@@ -76,7 +76,7 @@ TEST_CASE("An online method answers before it reads on, or within its delay") {
   // Four threads prepare four scans while they take in the four before.
   CHECK(fault_of_answer(0.0, 4, 7).empty());
   CHECK_THAT(fault_of_answer(0.0, 4, 8), Contains("after it has read scan 8"));
-  // Half a second later it has seen scans 0 to 5, and scan 6 tells that the time has come.
+  // Half a second later it has scans 0 to 5, and scan 6 shows that the time has passed.
   CHECK(fault_of_answer(0.5, 1, 6).empty());
   CHECK_THAT(fault_of_answer(0.5, 1, 7), Contains("and those of the 0.5 s after it"));
 }

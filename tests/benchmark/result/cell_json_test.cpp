@@ -33,7 +33,7 @@ std::string error_of(const ordered_json& cell) {
 
 using Pointer = ordered_json::json_pointer;
 
-/// Every field of every object below `json`, with the names that stand for what is in them.
+/// Every field of every object below `json`, with the names of its members.
 void collect_fields(const ordered_json& json, const Pointer& place, std::vector<Pointer>& places) {
   if (json.is_array()) {
     for (std::size_t i = 0; i < json.size(); ++i) collect_fields(json[i], place / i, places);
@@ -172,7 +172,7 @@ TEST_CASE("Files of earlier versions are read", "[result]") {
   run["build"] = {{"version", "0"}, {"compiler", "c"}, {"build_type", "t"}};
   const std::string file = "run.json";
   const RunRecord read = run_record_from(run, file);
-  // Each sequence goes with each method, and nobody knows where the sequence is.
+  // Each sequence is combined with each method; the path of the sequence is unknown.
   CHECK(read.cells == std::vector<CellName>{{"town", "x"}, {"town", "y"}});
   CHECK_FALSE(read.sequences[0].place);
   CHECK(read.build->commit.empty());

@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// No value is the one that a record has if nobody says it.
+// No value is the default of a record.
 
 const char* const kData = R"({
   "name": "town", "layout": "files", "source": "here", "frames": "0:1:1", "scans": 2,
@@ -125,7 +125,7 @@ ordered_json whole_results() {
           {"cells", ordered_json::array({whole_cell(), test::full_cell()})}};
 }
 
-/// Draws the values of a file anew, and which of its parts are there.
+/// Draws new values of a file, and its optional parts.
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values at the ends of what a result file may hold, and what is said of those beyond.
+// Values at the limits of a result file, and the messages for values beyond.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ ordered_json plain_cell() {
   return to_json(cell);
 }
 
-/// What is said of a cell with `value` at `place`; empty if it is read.
+/// The message for a cell with `value` at `place`; empty if it is read.
 std::string said_of(const char* place, const ordered_json& value) {
   ordered_json json = plain_cell();
   json[ordered_json::json_pointer(place)] = value;
@@ -75,7 +75,7 @@ TEST_CASE("Values are read up to the ends of their types, and others are named",
       // 40 characters with the quotes, and one more.
       {"/masks/removed", std::string(38, 'x'), "found \"xxx"},
       {"/masks/removed", std::string(39, 'x'), "found a long string)"},
-      {"/masks/removed", "\xC3\x9F", "found \"\xC3\x9F\")"},  // As it is.
+      {"/masks/removed", "\xC3\x9F", "found \"\xC3\x9F\")"},  // Unchanged.
       {"/measured/stages", "x", "measured.stages: expected a list"},
       {"/method/parameters", {1}, "method.parameters: expected an object"},
       {"/method/online", 1, "method.online: expected true or false"},

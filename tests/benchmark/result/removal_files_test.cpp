@@ -37,8 +37,8 @@ TEST_CASE("Removals are written per point of the file and read back per point of
   const test::TwoScans scans;
   const test::TemporaryFolder folder;
   write_removals(folder.path() / "deep", scans, two_masks(), [] {});
-  // The scan's points stand at positions 0, 2 and 4 of the file; the last two are removed, and
-  // what it leaves out is neither kept nor removed.
+  // The scan's points are at positions 0, 2 and 4 of the file; the last two are removed, and points
+  // that the scan leaves out are neither kept nor removed.
   CHECK(words_of(folder.path() / "deep/000007.label") ==
         std::vector<std::uint32_t>{9, 0, 251, 0, 251});
   CHECK(words_of(folder.path() / "deep/000008.label") == std::vector<std::uint32_t>{251});
@@ -65,7 +65,7 @@ TEST_CASE("The labels of predictions are told, so that masks of 0 and 1 can be n
   const test::TwoScans scans;
   const test::TemporaryFolder folder;
   const auto found_with = [&](std::uint32_t last) {
-    // The scan's points stand at positions 0, 2 and 4; the upper half of a word is an instance.
+    // The scan's points are at positions 0, 2 and 4; the upper half of a word is an instance.
     const std::vector<std::uint32_t> words = {1, 77, 7U << 16, 251, last};
     write_atomically(folder.path() / "000007.label",
                      {reinterpret_cast<const char*>(words.data()), words.size() * 4});
@@ -100,7 +100,7 @@ TEST_CASE("Learning ids, ids of a rule and arrays are read as other programs wri
   CHECK_THAT(ruled.note, Contains("label rule mine: 7"));
   CHECK(labels({9, 0, 251, 0, 7}).masks.get(0) == Mask{0, 1, 0});
   CHECK(labels({9, 0, 251, 0, 7}).note.empty());
-  // Who is 1 in label files of 0 and 1 is not known.
+  // In label files of 0 and 1, the meaning of 1 is unknown.
   CHECK(labels({0, 0, 1, 0, 1}).masks.removed_count() == 0);
 
   const auto array = [&](const std::string& type, const std::string& five, const std::string& one) {
@@ -210,9 +210,9 @@ TEST_CASE(
   for (const auto& file : foreign) write_atomically(file, "mine");
   CHECK_FALSE(remove_removals(place));
   for (const auto& file : foreign) CHECK(read_text(file) == "mine");
-  // Nothing goes then, for a cell stands beside these removals.
+  // No file is deleted then, because a cell is beside these removals.
   CHECK(std::distance(std::filesystem::directory_iterator(place), {}) == 8);
-  // A link goes alone.
+  // A link is deleted without its target.
   std::filesystem::create_symlink(place, folder.path() / "link");
   CHECK(remove_removals(folder.path() / "link"));
   CHECK_FALSE(std::filesystem::is_symlink(folder.path() / "link"));

@@ -36,7 +36,7 @@ RunResults swept_run() {
 TEST_CASE("A sweep has a table of its own, the curve") {
   const std::vector<TextTable> tables = make_tables(swept_run());
   REQUIRE(tables.size() == 4);
-  REQUIRE(tables[0].rows.size() == 2);  // Only y stands in the table of methods.
+  REQUIRE(tables[0].rows.size() == 2);  // Only y is in the table of methods.
   CHECK(tables[0].rows[0].label == "y");
   const TextTable& curve = tables[2];
   CHECK(curve.title == "Sweep of x over size by protocol erasor");

@@ -67,7 +67,7 @@ struct OneCell {
   Cell cell = cell_of(identity(), masks);
 };
 
-/// What happens to the names in folders, in order, as the kernel tells it.
+/// The events on names in folders, in order, from the kernel.
 class FolderWatch {
  public:
   explicit FolderWatch(const std::vector<fs::path>& folders) : file_(::inotify_init1(IN_NONBLOCK)) {
@@ -79,7 +79,7 @@ class FolderWatch {
   FolderWatch(const FolderWatch&) = delete;
   FolderWatch& operator=(const FolderWatch&) = delete;
 
-  /// "gone NAME" and "there NAME" so far.
+  /// "gone NAME" and "there NAME" up to now.
   std::vector<std::string> events() {
     std::vector<std::string> list;
     alignas(inotify_event) char buffer[8192];
@@ -115,7 +115,8 @@ TEST_CASE("No cell stands beside removals of another one at any moment") {
   store.keep(cell, removals);
   const auto events = watch.events();
   CAPTURE(events);
-  // First the old cell goes, then its removals; the new ones come, and last their cell.
+  // First the old cell is deleted, then its removals; the new removals are written, and last their
+  // cell.
   const std::vector<std::string> order = {"gone cell.json", "gone 000007.label", "there removals",
                                           "there cell.json"};
   for (std::size_t i = 0; i < order.size(); ++i) {

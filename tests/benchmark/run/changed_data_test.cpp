@@ -108,7 +108,7 @@ TEST_CASE("A scan that is another than when the run began makes its cell bad_dat
   const auto read_by_method = drive.run(meddler([&] { drive.replace_scan(); }, nothing));
   CHECK(read_by_method.first == "bad_data");
   CHECK_THAT(read_by_method.second, Contains("the data changed") && Contains("scan 000001"));
-  // Only for who scores it afterwards.
+  // Only for the later scoring.
   const auto read_by_scorer = drive.run(meddler(nothing, [&] { drive.replace_scan(); }));
   CHECK(read_by_scorer.first == "bad_data");
   CHECK_THAT(read_by_scorer.second, Contains("the data changed") && Contains("scan 000001"));

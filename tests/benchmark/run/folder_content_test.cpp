@@ -177,14 +177,14 @@ TEST_CASE("A run that is added to a folder leaves what the folder has, and is ne
   CHECK(merged.sequences[0].data.fingerprint == "f");
   CHECK(merged.sequences[2].data.fingerprint.empty());
   CHECK_FALSE(merged.controls);
-  // Nobody asked for the others.
+  // The others were not requested.
   CHECK(titles_of(merged.cells) == Words{"town / a", "town / b", "town / c", "highway / a",
                                          "highway / b", "street / b", "street / c"});
   asked.suite = "suite";
   asked.controls = true;
   CHECK(merged_run_record(present, asked).controls);
   CHECK(merged_run_record(asked, present).controls);
-  // Where the run has all that the folder has, the order is the run's.
+  // If the run has all cells of the folder, the order is the run's.
   merged = merged_run_record(run_of({"town"}, {"a", "b"}), run_of({"street", "town"}, {"b", "a"}));
   CHECK(names_of(merged.sequences) == Words{"street", "town"});
   CHECK(names_of(merged.methods) == Words{"b", "a"});
@@ -206,14 +206,14 @@ TEST_CASE("Cells of earlier runs stay in the tables if they fit the others") {
   const EarlierCells earlier = read_earlier_cells(store, record, asked);
   REQUIRE(earlier.kept.size() == 4);
   CHECK(earlier.left_out.empty());
-  CHECK(earlier.find({"town", "a"}) == nullptr);  // It is asked for.
+  CHECK(earlier.find({"town", "a"}) == nullptr);  // It was requested.
   CHECK(earlier.find({"town", "c"}) == nullptr);
   REQUIRE(earlier.find({"highway", "b"}) != nullptr);
   CHECK(earlier.find({"highway", "b"})->title() == "highway / b");
   CHECK(earlier.lines() ==
         Words{"kept of earlier runs on town: b", "kept of earlier runs on highway: a, b, c"});
 
-  // What does not fit is told: another version, other data, a protocol of another version, damage.
+  // Differences are reported: another version, other data, a protocol of another version, damage.
   Cell cell = cell_of(record, {"town", "b"});
   cell.method.version = "0";
   store.keep(cell);
@@ -281,7 +281,7 @@ TEST_CASE("Earlier cells come with their repeats, as far as these are theirs") {
   store.keep_repeat(name, other);
   CHECK(mean()->repeats.empty());
   CHECK(mean()->total_seconds == 8.0);
-  // Without masks nobody can tell.
+  // Without masks it is unknown.
   store.keep_repeat(name, repeat_of(cell, 2, 2.0));
   CHECK(mean()->repeats.size() == 2);
   cell.masks.reset();

@@ -136,7 +136,7 @@ TEST_CASE("A sequence that was moved is looked for below --data, by the run's pl
   fs::rename(moved / "sequences/05", moved / "five");
   fs::remove(moved / "sequences");
   CHECK(two.scans_of("five", moved) == 1);
-  // What is told is that other data stands there, and not what else was tried in vain.
+  // The message names the other data there, and not the other failed attempts.
   fs::rename(moved / "five", two.folder.path() / "aside");
   CHECK_THROWS_WITH(two.scans_of("five", moved),
                     Contains("sequence 'five' cannot be opened again"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a run asks of the system for its folders, and what it does if that refuses: this program's
-// fsync is found before that of the C library.
+// The system calls of a run for its folders, and its reaction to errors: this program's fsync
+// replaces that of the C library.
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ class KeptSyncs {
   KeptSyncs& operator=(const KeptSyncs&) = delete;
 };
 
-/// What a run of one control on one scan says, by itself or as one cell.
+/// The message of a run of one control on one scan, as a run or as one cell.
 std::string said_by_run(const fs::path& out, bool as_cell) {
   Suite suite;
   SequenceOptions options;

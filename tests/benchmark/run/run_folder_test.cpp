@@ -97,7 +97,7 @@ TEST_CASE("What is not a run's own stays in its folder, whatever its name") {
                                          new_part_name(out / "thesis.tex"),
                                          new_part_name(cell / "notes.txt")};
   for (const fs::path& file : foreign) write(file, "mine");
-  // What killed runs leave, in a form that only they give, goes.
+  // Remains of killed runs, which only runs name so, are deleted.
   const std::vector<fs::path> left = {
       new_part_name(out / "results.json"), new_part_name(cell / "cell.json"),
       new_part_name(cell / "timing-2.json"), new_part_name(cell / "removals") / "000000.label"};
@@ -185,7 +185,7 @@ TEST_CASE("A marked folder stays one, and only half-written results of a run go"
   const std::string marker = read_text(out / kRunMarker);
   write(out / kRunMarker, "of an earlier version");
   write(out / "notes.txt", "mine");
-  prepare_run_folder(out);  // It is marked, whatever else stands there.
+  prepare_run_folder(out);  // It is marked, with any other content.
   CHECK(read_text(out / kRunMarker) == "of an earlier version");
   const std::vector<fs::path> left = {new_part_name(out / "table.tex"),
                                       new_part_name(out / kRunMarker)};

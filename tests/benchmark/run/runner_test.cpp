@@ -154,7 +154,7 @@ TEST_CASE("A cell that is there, right and whole is not run again, and anything 
   std::filesystem::remove(cell);
   CHECK(runs_of(false) == 1);
 
-  CHECK(runs_of(true) == 1);  // Removals are asked for and not there.
+  CHECK(runs_of(true) == 1);  // Removals are requested and missing.
   CHECK(runs_of(true) == 0);
   const auto removals = out / "cells/street/good-v/removals/000001.label";
   std::filesystem::resize_file(removals, std::filesystem::file_size(removals) - 4);
@@ -233,7 +233,7 @@ TEST_CASE("A method or a sequence that is added to a run folder leaves the other
   run_suite(two_scans_called("b", "good"), {.out = out});
   CHECK(cells_in(out) == Names{"a/good:v", "a/throws:v", "b/good:v"});
   CHECK_THAT(read_text(out / "table.md"), Contains("### a\n") && Contains("### b\n"));
-  // A cell that nobody asked for is not missing.
+  // A cell that was not requested is not missing.
   CHECK_FALSE(read_sealed(out / "results.json").contains("missing"));
   const ordered_json record = read_sealed(out / "run.json");
   CHECK(record["places"].size() == 2);
@@ -267,7 +267,7 @@ TEST_CASE("A suite of another name is refused, and replaces what is there if tha
   CHECK_FALSE(std::filesystem::exists(out / "cells/b"));
   CHECK_THAT(plan_suite(other, {.out = out}).refused, Contains("suite 'one'"));
 
-  // Whoever names sequence and method adds them to the suite.
+  // A named sequence and method are added to the suite.
   run_suite(two_scans_called("a", "odd"), {.out = out});
   CHECK(cells_in(out) == Names{"a/good:v", "a/odd:v"});
   CHECK(read_sealed(out / "run.json")["suite"]["name"] == "one");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A layout that the program does not know: all that it needs to be opened, inspected, run and
-// cleaned like any other is in this file, and one line makes it known.
+// A layout that is not built in. To be opened, inspected, run and cleaned like others, it needs
+// only this file; one line registers it.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A protocol that the project does not know, whose rates are fractions of mistakes (lower is
-// better), goes through every output. Nothing but its registration says what it is.
+// A protocol that is not built in, whose rates are fractions of mistakes (lower is better), in
+// every output. Only its registration describes it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -94,7 +94,7 @@ TEST_CASE("A protocol of one's own is in every output", "[slow]") {
   CHECK_THAT(line, Contains("mistakes 0.1") && Contains(" ms  lost 0.1") && Contains("left 0."));
   CHECK_THAT(line, !Contains("lost_of_all"));
 
-  // CSV: its main rates stand behind those of the built-in protocols.
+  // CSV: its main rates are behind those of the built-in protocols.
   const std::string csv = read_text(out / "results.csv");
   CHECK_THAT(
       csv,

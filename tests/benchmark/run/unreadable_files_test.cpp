@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is there and cannot be read is never taken for absent or damaged, which would have it made
-// anew: the error of the system is told.
+// An unreadable file is never taken for absent or damaged, which would replace it: the system's
+// error is reported.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 

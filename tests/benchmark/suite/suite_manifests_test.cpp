@@ -24,7 +24,7 @@ TEST_CASE("manifests are looked up beside the suite file first") {
   CHECK(suite.methods[1].method.address() == "external:" + found);
   CHECK(suite.methods[1].name == "a");
   CHECK(suite.methods[2].method.address() == "raymoval:offline");
-  // One that is not there is looked up as it stands, from the working folder.
+  // A missing file is searched from the working folder.
   CHECK_THROWS_WITH(
       suite_of(R"("external:elsewhere.json")"),
       Contains("elsewhere.json: there is no such manifest") && !Contains(folder.text()));

@@ -123,7 +123,7 @@ TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
   CHECK(tables[0].rows[0].cells[8].text == "0.890");
   CHECK(tables[0].rows[1].cells[6].text == "-");
   CHECK(tables[1].title == "Published");
-  // Nothing of papers stands in the tables of a run that has none of their sequences.
+  // The tables of a run without the sequences of papers have no rows of papers.
   REQUIRE(make_tables(two_by_two(), with_papers({paper})).size() == 1);
   CHECK(make_tables(two_by_two(), with_papers({paper}))[0].groups.size() == 2);
 }

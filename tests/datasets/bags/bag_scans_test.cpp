@@ -25,8 +25,8 @@ std::vector<double> shift(double x, double y = 0, double z = 0) {
   return {x, y, z, 0, 0, 0, 1};
 }
 
-/// A bag of ROS 1 that is made message by message. Each message is recorded 5 s after its stamp,
-/// so that whoever takes one time for the other is found out.
+/// A ROS 1 bag that is made message by message. Each message is recorded 5 s after its stamp, so
+/// that a confusion of both times is detected.
 class MadeBag {
  public:
   explicit MadeBag(std::filesystem::path path) : path_(std::move(path)) {}
@@ -163,7 +163,7 @@ TEST_CASE("A file of indices that is damaged is an error", "[bags]") {
   check_says(error("100300000000,0,-1\n"), {"line 1, field 3", "'-1'"});
   check_says(error("100300000000,0 1\n"), {"line 1, field 2", "'0 1'"});
   check_says(error("100300000000,0\n100300000000,1\n"), {"line 2", "time of line 1 again"});
-  // Point 1 stands for no return, and is there; point 2 is not.
+  // Point 1, a missing return, exists; point 2 does not.
   check_says(error("100300000000,1,2\n"), {"line 1", "point 2 of a scan of 2"});
 }
 
@@ -272,7 +272,7 @@ TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
     return message_of<DataError>([&] { (void)open_sequence(path, {}); });
   };
   {
-    // A filter that diverged: nothing stands in for its poses.
+    // A filter that diverged: its poses are not replaced.
     MadeBag bag(folder / "diverged.bag");
     bag.tf(0, "base", "lidar", shift(0, 0, 2), "/tf_static");
     bag.tf(100, "odom", "base", shift(nan));
@@ -282,7 +282,7 @@ TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {
                                     "not a rigid motion", "--pose-topic", "--poses"});
   }
   {
-    // One of four that cannot be used is told as a loss, and stands with the result.
+    // One unusable message of four is reported as a loss, also with the result.
     MadeBag bag(folder / "once.bag");
     bag.tf(100, "odom", "lidar", shift(0));
     bag.tf(100.3, "odom", "lidar", shift(nan));
@@ -453,7 +453,7 @@ TEST_CASE("A bag that was cut opens with what is there, and says so", "[bags]") 
   REQUIRE_FALSE(sequence.damage.empty());
   check_says(sequence.damage[0], {"drive.bag", "truncated"});
   CHECK(lost_scan_lines(sequence) == sequence.damage);
-  // What is damaged is said first.
+  // Damage is reported first.
   const std::vector<std::string> lines = opening_lines(sequence);
   CHECK(lines.size() == sequence.damage.size() + sequence.notes.size());
   CHECK(lines.at(0) == sequence.damage[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A disk that fails below a recording that is open is told, and is not taken for damage.
+// A disk that fails under an open recording is reported, and is not taken for damage.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-/// Puts a folder in the place of each open file `path`: it can be looked at, and each read of it
-/// fails. @return how many there are
+/// Replaces each open file `path` by a folder, of which each read fails. @return number of files
 int fail_reads_of(const fs::path& path) {
   const fs::path whole = fs::canonical(path);
   const Descriptor folder(::open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));

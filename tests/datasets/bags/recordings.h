@@ -85,9 +85,8 @@ void for_each_message(const Bag& bag, Call&& call) {
   }
 }
 
-/// Opens a recording that was cut or damaged and reads what there is. Whatever comes must be one of
-/// the messages that the whole one has, and damage must be said. @return how many messages there
-/// are
+/// Opens a truncated or damaged recording and reads all messages. Each must be a message of the
+/// whole recording, and damage must be reported. @return number of messages
 inline std::uint64_t read_damaged(const std::filesystem::path& path) {
   std::uint64_t count = 0;
   may_refuse([&] {

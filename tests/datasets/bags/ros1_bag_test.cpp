@@ -147,8 +147,8 @@ TEST_CASE("An index that does not fit its chunk is not believed", "[bags]") {
 TEST_CASE("A message that the index places wrong is an error and no other message", "[bags]") {
   const TemporaryFolder folder;
   std::string bytes = read_text(write_bag(folder, 1, 2));
-  // The two entries of the index differ in nothing but their times and places: the first gets the
-  // place of the second.
+  // The two entries of the index differ only in their times and places: the first gets the place of
+  // the second.
   const Ros1Bag right(folder / "made.bag");
   const std::size_t chunk_end = right.chunks()[0].data_begin + right.chunks()[0].size;
   const std::size_t first = bytes.find(std::string("ver=\1\0\0\0", 8), chunk_end) + 12;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Headers of clouds at the bounds of what they may say.
+// Headers of clouds at their limits.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"

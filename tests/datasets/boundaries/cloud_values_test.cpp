@@ -31,7 +31,7 @@ std::string compressed_pcd(int points, const std::string& stream) {
 /// `bytes` zeros, at least 10, in as few bytes as LZF can: a control byte below 32 is followed by
 /// that many bytes and one more; 0xE0, n and a zero repeat the last byte n + 9 times.
 std::string packed_zeros(std::size_t bytes) {
-  std::string stream(2, '\0');  // One zero as it is.
+  std::string stream(2, '\0');  // One literal zero.
   for (std::size_t left = bytes - 1; left > 0;) {
     // What remains for the last repetition must not be below its least length.
     std::size_t run = std::min<std::size_t>(left, 264);
@@ -77,8 +77,8 @@ TEST_CASE("each number type of a PCD file has its size and sign", "[cloud]") {
 }
 
 TEST_CASE("a number is rounded once where nothing is taken off it", "[cloud]") {
-  // float32 near 2^60 goes in steps of 2^37, so 2^36 + 1 is more than half a step. In float64,
-  // with steps of 2^8, the 1 is lost, and what is left is half a step, which rounds down.
+  // float32 near 2^60 has steps of 2^37, so 2^36 + 1 is more than half a step. In float64, with
+  // steps of 2^8, the 1 is lost, and the rest is half a step, which rounds down.
   const std::int64_t more = (1LL << 60) + (1LL << 36) + 1;
   CHECK(read_binary<std::int64_t>("I", {more, 0, 0}).x() == 0x1p60F + 0x1p37F);
   // The same at 1 in a text: 2^-24 is half a step of float32, and the last digit is below any of
@@ -91,7 +91,7 @@ TEST_CASE("a number is rounded once where nothing is taken off it", "[cloud]") {
 
 TEST_CASE("what is taken off coordinates is not taken off intensities", "[cloud]") {
   const TemporaryFolder folder;
-  // An origin has three numbers; what follows it in memory is none of them.
+  // An origin has three numbers; the memory behind it is not read.
   const struct {
     Eigen::Vector3d origin;
     double behind;
@@ -99,7 +99,7 @@ TEST_CASE("what is taken off coordinates is not taken off intensities", "[cloud]
   const std::string head =
       "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 1\nHEIGHT 1\nDATA ";
   const std::string row = floats({1.5F, 2, 3, 7});
-  // 17 bytes as they are: LZF's control byte is the count less one.
+  // 17 literal bytes: LZF's control byte is the count minus one.
   for (const auto& path :
        {folder.write("a.pcd", head + "ascii\n1.5 2 3 7\n"),
         folder.write("b.pcd", head + "binary\n" + row),
@@ -170,7 +170,7 @@ TEST_CASE("a compressed cloud that holds other bytes than it announces is damage
 }
 
 TEST_CASE("a block that announces more than LZF can give is not decoded at all", "[cloud]") {
-  // A megabyte as it is would be written far beyond what was set aside.
+  // A literal megabyte would be written far beyond the buffer.
   std::string stream;
   for (int i = 0; i < 1 << 15; ++i) stream += "\x1F" + std::string(32, 'a');
   check_says(cloud_error("a.pcd", compressed_pcd(357913940, stream)), {"damaged"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path may name, and what is said where it names something near to a sequence.
+// Paths of sequences, and the messages for paths near a sequence.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -38,7 +38,7 @@ TEST_CASE("a folder of scans inside a sequence leads to the sequence", "[layouts
   check_says(path_error(drive + "/velodyne/000000.bin"),
              {"is a scan, expected the folder of its sequence: " + drive + "."});
   check_says(path_error(drive + "/poses.txt"), {"is a file, expected a folder.", "Known are: "});
-  // Poses of its own make it a sequence, whoever names them.
+  // With its own poses it is a sequence, also if an option names them.
   SequenceOptions options;
   options.poses = drive + "/poses.txt";
   CHECK(open_sequence(drive + "/velodyne", options).layout == "files");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses and times at the bounds of what is taken.
+// Poses and times at their limits.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sequence says of its files, at the bounds of what is left out, chosen or refused.
+// Messages of a sequence on its files, at the limits between left out, chosen and refused.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -30,7 +30,7 @@ Sequence one_scan(const TemporaryFolder& folder, const std::vector<float>& value
   return open_sequence(folder.text(), {});
 }
 
-/// What is said of a scan of so many points, of which the first is no return.
+/// The messages for a scan of `points` points, of which the first is no return.
 std::vector<std::string> lines_of(std::size_t points) {
   const TemporaryFolder folder;
   std::vector<float> values(4 * points, 1.0F);
@@ -58,7 +58,7 @@ void add(std::string& bytes, const Pose& pose) {
   bytes += std::string(reinterpret_cast<const char*>(matrix.data()), 16 * sizeof(double));
 }
 
-/// The bytes of what holds for all scans.
+/// The bytes of the settings of all scans.
 std::string settings_by_hand(const Sequence& sequence) {
   const SensorModel& s = sequence.scans->sensor();
   std::string whole = bytes_of<double>(
@@ -72,7 +72,7 @@ std::string settings_by_hand(const Sequence& sequence) {
   return whole;
 }
 
-/// The fingerprint as it is described: hashes of scans behind the bytes of what holds for all.
+/// The fingerprint by its description: the bytes of the settings, then hashes of scans.
 std::string fingerprint_by_hand(const Sequence& sequence) {
   std::string whole = settings_by_hand(sequence);
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings of a sequence, and what follows from them.
+// Settings of a sequence, and their consequences.
 #include <catch2/catch.hpp>
 
 #include "core/error.h"

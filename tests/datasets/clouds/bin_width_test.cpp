@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scans whose points are not of 4 numbers are told from those whose points are.
+// Scans whose points do not have 4 numbers are distinguished from scans whose points have.
 #include "datasets/clouds/cloud_file.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Row = std::vector<float>;
 using Rows = std::vector<Row>;
 
 /// x y z intensity of a scan. The count is a multiple of 210, so that the size of the file fits
-/// each width that is thought of, whatever the width is.
+/// each checked width, for any true width.
 Rows simulated_rows(const std::string& sensor) {
   SimulationOptions options;
   options.scene = "suburb";
@@ -128,7 +128,7 @@ TEST_CASE("no scan of 4 numbers a point is refused, whatever it looks like", "[b
 }
 
 TEST_CASE("no scan of 4 numbers alike is refused", "[bin]") {
-  // No column tells itself from another one, and beams come in turn.
+  // All columns have one distribution, and beams alternate.
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> any(-20.0F, 20.0F);
@@ -145,7 +145,7 @@ TEST_CASE("no scan of 4 numbers alike is refused", "[bin]") {
     check_accepted(rows);
   }
   check_accepted(Rows(630, Row{0, 0, 0, 0}));
-  check_accepted(widened(Rows(210, Row{1, -2, 3, 0.5F}), 5));  // Too few points to tell.
+  check_accepted(widened(Rows(210, Row{1, -2, 3, 0.5F}), 5));  // Too few points to decide.
 }
 
 TEST_CASE("all scans have to be of another width, and of a size that fits it", "[bin]") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LAS files that are written: what stands where, and what cannot be written.
+// Written LAS files: the places of values, and values that cannot be written.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -22,7 +22,7 @@ TEST_CASE("any layout goes through .las, coordinates to the millimetre", "[las]"
     write_records(folder / "a.las", made);
     const PointRecords las = read_records(folder / "a.las");
     REQUIRE(las.size() == made.size());
-    // Multiples of a quarter are multiples of a millimetre, save for what float64 rounds.
+    // Multiples of a quarter are multiples of a millimetre, except for rounding of float64.
     for (const char* axis : {"x", "y", "z"}) {
       for (std::size_t point = 0; point < made.size(); ++point) {
         CHECK(std::abs(column(las, axis)[point] - column(made, axis)[point]) < 1e-9);

@@ -60,7 +60,7 @@ std::uint32_t checksum_of(const std::string& bytes) {
 
 struct ZipFile {
   std::string name, content;
-  bool packed = false, wide = false;  ///< `wide`: its sizes stand in a zip64 block.
+  bool packed = false, wide = false;  ///< `wide`: its sizes are in a zip64 block.
 };
 
 std::string zip_of(const std::vector<ZipFile>& files, bool zip64 = false) {

@@ -83,9 +83,9 @@ inline PointRecords random_records(std::mt19937& random, bool with_gaps = true) 
   return records;
 }
 
-/// Cuts `good` at every `step`-th byte, and puts any byte there, and gives the path of the file
-/// `name` with what comes of it to `read`, which may throw a DataError that names the file (but not
-/// within a CHECK, which catches it).
+/// Truncates `good` at every `step`-th byte, and also changes that byte, writes the result to the
+/// file `name`, and passes its path to `read`. `read` may throw a DataError that names the file
+/// (but not within a CHECK, which catches it).
 inline void read_cut_and_flipped(const std::string& name, const std::string& good, std::size_t step,
                                  const std::function<void(const std::filesystem::path&)>& read) {
   const TemporaryFolder folder;

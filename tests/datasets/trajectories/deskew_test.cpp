@@ -110,7 +110,7 @@ TEST_CASE("a wall that motion within scans smears is one again", "[deskew]") {
   REQUIRE(sequence.notes.size() == 2);
   check_says(sequence.notes[0], {"'time'", "seconds from the time of the scan"});
   check_says(sequence.notes[1], {"after the last pose"});  // The last scan ends behind it.
-  // What is stored stays as it is, and so do poses and the files behind the scans.
+  // Records, poses and the files of the scans are unchanged.
   CHECK(sequence.records->records(0).size() == kPoints);
   CHECK(file_source(sequence) != nullptr);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What inspection finds in poses and times goes away with the option that it names.
+// The option that a finding on poses and times names removes the finding.
 #include <cmath>
 #include <numbers>
 
@@ -192,7 +192,7 @@ TEST_CASE("an array of poses beside the scans counts as none of them", "[inspect
   const auto findings = unopenable_findings(folder.text(), options);
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].what == "holds 4 poses for 3 scans");
-  // What cannot be accessed is no scan, and no finding either.
+  // A file that cannot be accessed is no scan, and no finding either.
   std::filesystem::create_symlink("3.bin", folder / "3.bin");
   CHECK_THROWS_AS(unopenable_findings(folder.text(), options), UnreadableError);
 }
@@ -305,7 +305,7 @@ TEST_CASE("clocks that differ are told by how much, and agree once that is said"
     options.time_offset_s = parse_number<double>(advice);
     CHECK(found_with(folder, options).empty());
   }
-  // What a user says already counts in what is advised.
+  // The advice includes the user's options.
   SequenceOptions wrong;
   wrong.time_offset_s = 0.1;
   const InspectionReport report = inspect_path(folder.text(), wrong);

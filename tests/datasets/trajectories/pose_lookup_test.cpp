@@ -20,8 +20,8 @@ Pose at(double x, double yaw = 0.0) {
   return pose;
 }
 
-/// A body that goes 10 m/s along x from second 100 on, and turns by 0.2 rad each second.
-/// @param T_body_sensor where the sensor is on it
+/// A body that moves 10 m/s along x from second 100 on, and turns by 0.2 rad per second.
+/// @param T_body_sensor pose of the sensor on the body
 SensorMotion motion_of_body(Nanoseconds time_offset = 0,
                             const Pose& T_body_sensor = Pose::Identity()) {
   const Trajectory trajectory(
@@ -78,6 +78,6 @@ TEST_CASE("half of the scans without a pose is an error that says what would hel
               "the poses from 100.000000000 s to 104.0", "--time-offset 100.000000000"});
   check_says(error({102 * kSecond, 103 * kSecond}), {"too far apart in time", "--max-gap"});
   check_says(error({99 * kSecond, 100 * kSecond}), {"--frames", "--time-offset 1.000000000"});
-  // The shift that is said helps.
+  // The named shift helps.
   CHECK(look_up_poses({0, kSecond}, motion_of_body(100 * kSecond), "traj.txt").missing == 0);
 }

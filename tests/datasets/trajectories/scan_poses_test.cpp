@@ -125,7 +125,7 @@ TEST_CASE("a sensor that stands needs one pose, or none on request", "[trajector
 TEST_CASE("poses of a body are taken to its sensor", "[trajectories]") {
   const TemporaryFolder folder;
   write_scans(folder, {"0.bin"});
-  // The body looks along y; its sensor is two metres ahead of it.
+  // The body faces along y; its sensor is two metres ahead of it.
   folder.write("poses.txt", "0 -1 0 1 1 0 0 0 0 0 1 0\n");
   SequenceOptions options;
   options.T_sensor = "2,0,0,0,0,0,1";

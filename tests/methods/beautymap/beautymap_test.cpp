@@ -33,7 +33,7 @@ std::vector<Eigen::Vector3d> ground() {
   return points;
 }
 
-/// A mast behind the sensor, so that its steepest ray goes up high: 8 m at 6 m, from 1.7 m.
+/// A mast behind the sensor, so that its steepest ray is steep: 8 m high at 6 m, from 1.7 m.
 void add_mast(std::vector<Eigen::Vector3d>& points) {
   for (int i = 0; i < 16; ++i) points.emplace_back(-5.5, 0.5, 0.2 + 0.5 * i);
 }
@@ -92,7 +92,8 @@ TEST_CASE("beautymap: what stood in a column that a scan sees empty goes, but fo
 }
 
 TEST_CASE("beautymap: of the slice below, what is above the ground goes as well") {
-  // 17 of 20 points are ground, 85 %: the parts of 0.1 m above the one that reaches this go.
+  // 17 of 20 points are ground, 85 %: the parts of 0.1 m above the part that reaches this share are
+  // removed.
   std::vector<Eigen::Vector3d> person;
   stand(person, 8, 3, {0.22, 0.32, 0.41, 0.6, 1.1});
   for (int i = 0; i < 15; ++i) stand(person, 8, 3, {0.02});
@@ -110,7 +111,7 @@ TEST_CASE("beautymap: what a scan cannot see stays") {
   std::vector<Eigen::Vector3d> empty = ground(), full = person;
   add_mast(empty);
   full.insert(full.end(), empty.begin(), empty.end());
-  // A wall stands on the way in the second scan, from the ground to 2.6 m.
+  // A wall is on the way in the second scan, from the ground to 2.6 m.
   stand(empty, 6, 0, {0.2, 0.6, 1.1, 1.6, 2.1, 2.6});
   toy::HeldScans hidden;
   hidden.add_world(kSensor, full);
@@ -148,7 +149,7 @@ TEST_CASE("beautymap: what a scan cannot see stays") {
     CHECK(removed_of(with_and_without(far), 2, narrow) == 0);
   }
   SECTION("above the steepest ray") {
-    // Without the mast no ray goes up: nothing above the sensor is judged.
+    // Without the mast, no ray points up: no point above the sensor is judged.
     std::vector<Eigen::Vector3d> flat = ground(), tall = {{8.5, 3.5, 0.6}, {8.5, 3.5, 3.6}};
     tall.insert(tall.end(), flat.begin(), flat.end());
     stand(tall, 8, 3, {1.1, 1.6, 2.1, 2.6, 3.1});

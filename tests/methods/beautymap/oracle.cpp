@@ -106,7 +106,7 @@ bool Oracle::is_hidden(int slice, int x, int y) const {
   for (int step = 1;; ++step) {
     if (!p_.public_rays && step >= length) return false;
     const double share = static_cast<double>(step) / length;
-    // A hundredth of what the nearest other fraction differs by, against rounding.
+    // A hundredth of the difference to the nearest other fraction, against rounding.
     const double hair = 1e-6;
     const auto column = [&](int whole) {
       if (p_.public_rays) return static_cast<int>(std::floor(whole * share + hair));

@@ -20,7 +20,7 @@ MaskStore run(const ScanSource& scans, Parameters parameters = {}, bool offline 
 const toy::Box kWall{{8, -9, -2}, {8.5, 9, 2}};
 const toy::Box kBody{{4.03, -0.5, -0.6}, {4.53, 0.5, 0.5}};
 
-/// A wall in all five scans; somebody stands in front of it in scans 0 and 3.
+/// A wall in all five scans; a person is in front of it in scans 0 and 3.
 toy::World passer_by() {
   toy::World world{toy::Scanner{-40, 40}};
   for (int i = 0; i < 5; ++i) {
@@ -75,7 +75,7 @@ TEST_CASE("a void is never reset") {
 }
 
 TEST_CASE("the hit extension stands range noise") {
-  // The same wall 0.14 m apart: without d_s and d_p the nearer one stands in the void of the other.
+  // The same wall 0.14 m apart: without d_s and d_p, the nearer wall is in the void of the other.
   toy::World world{toy::Scanner{-40, 40}};
   world.scan({{{5.03, -5, -2}, {5.6, 5, 2}}}, Pose::Identity());
   world.scan({{{5.17, -5, -2}, {5.7, 5, 2}}}, Pose::Identity());
@@ -157,8 +157,8 @@ TEST_CASE("a point far out is refused, or cut by the maximum range") {
 }
 
 TEST_CASE("where the lattice lies matters little") {
-  // Moves by parts of a voxel and odd turns. Measured on three streets of 8 scans: at most 0.90 %
-  // of all verdicts change (a quarter of what is removed, most of it along the outlines of voids).
+  // Shifts by parts of a voxel and odd rotations. Measured on three streets of 8 scans: at most
+  // 0.90 % of all verdicts change (a quarter of the removed points, mostly at outlines of voids).
   const toy::World world = toy::street(6);
   const std::size_t points = toy::point_count(world);
   Pose shift = Pose::Identity(), turn = Pose::Identity();

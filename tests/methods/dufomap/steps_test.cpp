@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The five steps, each on a scene small enough for pencil and paper. Voxels of 0.1 m; the sensor
-// stands in the middle of voxel (0, 0, 0) unless said otherwise.
+// The five steps, each on a scene small enough for pencil and paper. Voxels of 0.1 m; by default
+// the sensor is in the middle of voxel (0, 0, 0).
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -125,9 +125,9 @@ TEST_CASE("step 3: the compensation counts along the axis last stepped") {
 
 TEST_CASE("step 3: beams pass from block to block in all directions") {
   // Blocks end at 0 along each axis, at +-64 in z and at +-32 in x and y: all eight diagonals, one
-  // at a time. |x| : |y| : |z| = 90 : 70 : 150 crosses each kind of wall; the beam is one voxel
-  // wide and each of its steps goes to a face neighbour, so that their number is the sum of the
-  // three differences: up to the end, and one for d_p.
+  // at a time. |x| : |y| : |z| = 90 : 70 : 150 crosses each kind of wall. The beam is one voxel
+  // wide and each of its steps is to a face neighbour, so that their number is the sum of the three
+  // differences: up to the end, and one for d_p.
   for (int octant = 0; octant < 8; ++octant) {
     const VoxelIndex end((octant & 1) != 0 ? 90 : -90, (octant & 2) != 0 ? 70 : -70,
                          (octant & 4) != 0 ? 151 : -151);

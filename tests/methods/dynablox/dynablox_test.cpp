@@ -10,8 +10,8 @@ using namespace raymoval::dynablox_method;
 
 namespace {
 
-/// A corridor from x = -2 to 14, 4 m wide, its floor 1.6 m below a sensor that stands still and
-/// looks ahead.
+/// A corridor from x = -2 to 14, 4 m wide, its floor 1.6 m below a stationary sensor that faces
+/// ahead.
 class Corridor {
  public:
   explicit Corridor(double length = 14.0)
@@ -21,7 +21,7 @@ class Corridor {
                {{length, -2.5, -1.9}, {length + 0.5, 2.5, 2}}},
         world(scanner(length)) {}
 
-  /// Scans in which nobody is there.
+  /// Scans without a person.
   void pass(int scans) {
     for (int i = 0; i < scans; ++i) scan(boxes_);
   }
@@ -80,15 +80,15 @@ TEST_CASE("dynablox: a person moves from the first scan in space that was free f
   for (int i = 0; i < 4; ++i) corridor.see_person(5.0 + 0.3 * i, -0.3);
   const MaskStore masks = corridor.masks(Parameters{});
   CHECK(corridor.share(masks, 4) == 0.0);
-  CHECK(corridor.share(masks, 5) > 0.3);  // Where nobody was in scan 4.
+  CHECK(corridor.share(masks, 5) > 0.3);  // No person was there in scan 4.
   CHECK(corridor.share(masks, 7) > 0.9);
   CHECK(toy::removed_share(corridor.world, masks, 0, 0, 7) < 0.05);
   CHECK(toy::removed_share(corridor.world, masks, 3, 0, 7) == 0.0);
 }
 
 TEST_CASE("dynablox: what is first seen later was never occupied") {
-  // A curtain at 3 m in scans 0 to 7. Scan 8 shows free space behind it, which is looked at when
-  // scan 9 has been judged: ever free at once.
+  // A curtain at 3 m in scans 0 to 7. Scan 8 shows free space behind it, which is evaluated after
+  // scan 9 is judged: ever free at once.
   const auto share_in = [](int scan) {
     Corridor corridor;
     for (int i = 0; i < 8; ++i) corridor.see({{3.0, -2.0, -1.6}, {3.3, 2.0, 2.0}});

@@ -92,7 +92,7 @@ TEST_CASE("dynablox: a scan weighs as many rays as go through a voxel") {
   const double left = (0.4 + 3.0 - field.range(13)) / (0.4 - 0.25);
   CHECK(left == Approx(0.13).margin(0.01));
   CHECK(field.weight(13) == Approx(left * at_a_metre / std::pow(field.range(13), 2)).epsilon(1e-2));
-  // Never more rays than at one metre, and never more than so many together.
+  // Never more rays than at one metre, and never more in total than the limit.
   CHECK(field.weight(2) == Approx(at_a_metre).epsilon(1e-5));
   field.see(wall(3.0));
   CHECK(field.weight(2) == 1000.0F);
@@ -115,7 +115,7 @@ TEST_CASE("dynablox: between pixels is their mean, unless one is much nearer") {
   // 0.29 and 0.31 m further back, of which two thirds are less and more than half the truncation.
   CHECK(seen_with(5.29) == Approx(5.0 + 0.29 * share).margin(1e-4));
   CHECK(seen_with(5.31) == Approx(5.0).margin(1e-4));
-  // One alone tells it all.
+  // One return alone determines the value.
   CHECK(seen_with(0.0) == Approx(5.0).margin(1e-4));
 }
 

@@ -21,7 +21,7 @@ Cell block_with(const Cell& cell) {
   return block;
 }
 
-/// The cells around a cell that differ from it along at most so many axes: 6, 18 or 26.
+/// The cells around a cell that differ from it along at most `axes` axes: 6, 18 or 26 cells.
 std::vector<Cell> around(const Cell& cell, int axes) {
   std::vector<Cell> cells;
   for (int i = 0; i < 27; ++i) {

@@ -84,7 +84,7 @@ TEST_CASE("dynablox: the voxels of a scan's points") {
 }
 
 TEST_CASE("dynablox: a cluster grows through ever-free voxels and to those beside them") {
-  // Ever free: 0 to 3. What lies beyond is taken in once.
+  // Ever free: 0 to 3. The cells beyond are added once.
   Parameters parameters;
   CHECK(sizes(line(0, 3), line(0, 9), parameters) == Sizes{5});
   SECTION("not without points between") {

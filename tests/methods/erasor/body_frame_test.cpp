@@ -165,7 +165,7 @@ TEST_CASE("without ground below it the sensor is as high as it is said to be", "
   const Pose pose = sensor_at({0, 0, 5}, {0.3, Eigen::Vector3d::UnitY()});
   const Pose T_body_sensor = body_frame(pose, map, on_the_ground());
   CHECK(T_body_sensor.translation().z() == 1.73);
-  // Level all the same.
+  // Still level.
   CHECK((T_body_sensor.linear() * pose.linear().transpose())
             .isApprox(Eigen::Matrix3d::Identity(), 1e-9));
 }
@@ -187,7 +187,7 @@ TEST_CASE("fewer beams leave fewer points in a bin", "[erasor]") {
   CHECK(points("vlp16") == 6);
   parameters.points_by_beams = true;
   CHECK(points("hdl64e") == 6);
-  CHECK(points("os1-128") == 6);                             // More beams ask for no more points.
+  CHECK(points("os1-128") == 6);                             // More beams require no more points.
   CHECK(points("hdl32e") == 2);                              // 6 * 0.43 / 1.33 degrees.
   CHECK(points("vlp16") == 1);                               // 6 * 0.43 / 2.
   CHECK(minimum_points_of(SensorModel{}, parameters) == 6);  // Unknown steps.

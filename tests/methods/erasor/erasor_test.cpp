@@ -75,12 +75,12 @@ TEST_CASE("a car under a canopy stays unless the window ends below the leaves", 
 
 TEST_CASE("a pole of which a far query sees only the ground is lost", "[erasor]") {
   const Points first = road_and({0.2F, 0.7F, 1.2F, 1.7F, 2.2F, 2.8F});
-  // 0.2 m is above the road by more than 0.15 m: it goes too.
+  // 0.2 m is above the road by more than 0.15 m: it is removed too.
   CHECK(removed_by(empty_road(), first, small_grid()) == Numbers{4, 5, 6, 7, 8, 9});
 }
 
 TEST_CASE("what the query sees in a bin that it clears comes back", "[erasor]") {
-  // Map to 2.9 m, query to 0.5 m: ratio 0.17. All above the road goes out, 0.5 comes back in.
+  // Map to 2.9 m, query to 0.5 m: ratio 0.17. All points above the road are removed, 0.5 is added.
   const Points query = road_and({0.5F});
   const Points first = road_and({0.5F, 1.5F, 2.9F});
   CHECK(removed_by(query, first, small_grid()) == Numbers{5, 6});
@@ -88,7 +88,7 @@ TEST_CASE("what the query sees in a bin that it clears comes back", "[erasor]") 
 
 TEST_CASE("nothing beyond the range or the height window is touched", "[erasor]") {
   Parameters parameters = small_grid();
-  parameters.maximum_range = 3.0;  // The car stands at 3.09 m.
+  parameters.maximum_range = 3.0;  // The car is at 3.09 m.
   CHECK(removed_by(empty_road(), road_and(kCar), parameters).empty());
   parameters = small_grid();
   parameters.maximum_height = 1.2;
@@ -121,8 +121,8 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
 }
 
 TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
-  // The first query clears the bin of car A and of B, which the map of all scans holds already;
-  // then B itself drives by: the query is higher, and the map keeps what it has.
+  // The first query clears the bin of car A and of B, which the map of all scans has already. Then
+  // B drives by: the query is higher, and the map is not changed.
   Points with_b = road();
   for (const float z : {0.7F, 1.3F}) with_b.emplace_back(2.7F, 0.7F, z);
   const HeldScans scans = scans_of({road_and(kCar), empty_road(), with_b});
@@ -166,8 +166,8 @@ TEST_CASE("only every n-th scan is a query", "[erasor]") {
 }
 
 TEST_CASE("the own car's points answer through voxels that others filled", "[erasor]") {
-  // Scan 2 stands 1 m ahead: the car is 2.1 m away, within its ego radius. Its point in the voxel
-  // that the first query cleared is removed; one above it, in a voxel of no other scan, stays.
+  // Scan 2 is 1 m ahead: the car is 2.1 m away, within its ego radius. Its point in the voxel that
+  // the first query cleared is removed; a point above it, in a voxel of no other scan, is kept.
   Pose ahead = Pose::Identity();
   ahead.translation().x() = 1.0;
   HeldScans scans;

@@ -64,7 +64,7 @@ TEST_CASE("voxels go out and come back", "[erasor]") {
 }
 
 TEST_CASE("a voxel that reaches over the edge of a tile comes back from either side", "[erasor]") {
-  // Tiles end at 5 m, and a voxel of 0.3 m goes from 4.8 to 5.1 m along each axis.
+  // Tiles end at 5 m, and a voxel of 0.3 m extends from 4.8 to 5.1 m along each axis.
   const auto key = voxel_key(voxel_index(Eigen::Vector3d(5.0, 5.0, 0.1), 1 / 0.3));
   for (const double place : {4.85, 5.05}) {
     NaiveMapBuilder builder;

@@ -10,7 +10,7 @@ using namespace raymoval::erasor_method;
 
 namespace {
 
-/// Extent of the bin that holds what lies on a radial grade of 15 % from 4.05 m to `end`.
+/// Extent of the bin with the points on a radial grade of 15 % from 4.05 m to `end`.
 BinExtent grade_extent(double end, double object_height) {
   BinExtent extent;
   for (double r = 4.05; r < end; r += 0.01) extent.add(0.15 * r);

@@ -177,7 +177,7 @@ TEST_CASE("a cancelled program ends with all that it started") {
   for (const char* file : {"own", "child"}) {
     std::string pid = read_text(f.here / file);
     pid.pop_back();
-    // Its end is on its way once it was told to end.
+    // It ends some time after the signal.
     for (int round = 0; round < 1000 && is_running(pid); ++round) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

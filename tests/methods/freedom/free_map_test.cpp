@@ -97,8 +97,8 @@ TEST_CASE("freedom: free space that is hit scan after scan is free no more") {
   CHECK_FALSE(map.is_free(kMiddle));
   CHECK_FALSE(map.is_free(beside));
   CHECK(hit(map, kMiddle) == Level::kStatic);
-  // The voxel counts anew. Its neighbours are as often passed as before: they could be free after
-  // one more scan, but the middle keeps them from it.
+  // The voxel counts from 0 again. Its neighbours keep their counts: they could be free after one
+  // more scan, but the middle voxel prevents it.
   CHECK(passed(map, low, high).empty());
   CHECK(passed(map, low, high).size() == 27);
 }

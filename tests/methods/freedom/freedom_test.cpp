@@ -12,7 +12,7 @@ using namespace raymoval::freedom_method;
 
 namespace {
 
-/// A wall behind a box, before a sensor that stands: the box is there in the first `with` scans.
+/// A wall behind a box, before a stationary sensor: the box is there in the first `with` scans.
 toy::World room(int scans, int with) {
   toy::Scanner scanner;
   scanner.azimuth_from = -20;

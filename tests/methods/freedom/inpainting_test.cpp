@@ -37,8 +37,8 @@ int value(const HoleImage& image, int row, int column) {
   return image.values[static_cast<std::size_t>(row * image.columns + column)];
 }
 
-/// Telea's algorithm as OpenCV has it, in its plainest form: at each step all pixels are looked at
-/// for the one that the front reaches next.
+/// Telea's algorithm as in OpenCV, in its simplest form: each step searches all pixels for the
+/// pixel that the front reaches next.
 class SlowInpainting {
  public:
   SlowInpainting(const HoleImage& image, int radius)
@@ -157,7 +157,7 @@ class SlowInpainting {
         weights += weight;
       }
     }
-    // Against the gradient by at most the root of 2, and half a level up besides rounding.
+    // Against the gradient by at most the root of 2, and half a level up, apart from rounding.
     double value = greys / weights + 0.5;
     if (const double length = std::hypot(rise_x, rise_y); length > 0.0) {
       value -= rise_x / length + rise_y / length;

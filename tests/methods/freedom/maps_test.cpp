@@ -93,7 +93,7 @@ TEST_CASE("freedom: a point replaces those of a higher level only") {
   map.integrate(row_of({0}), 3);
   map.integrate(row_of({0}, Level::kAggressive), 4);
   CHECK(levels(map, 1) == "S");
-  // The point is that of scan 3: it goes with what that scan has in newly free voxels.
+  // The point belongs to scan 3: it is removed with that scan's points in newly free voxels.
   map.integrate(row_of({1, 2}), 4);
   map.remove({{1, 0, 0}});
   CHECK(levels(map, 3) == "S--");

@@ -57,7 +57,7 @@ TEST_CASE("nothing goes where nothing moves", "[hmm_mos]") {
   CHECK(toy::masks_of(*make_hmm_mos(sound()), scans).removed_count() == 0);
 }
 
-// It comes into a place that was free in scan 7 and stands still: from scan 12 on its voxels have
+// The object comes to a free place in scan 7 and is stationary: from scan 12 on, its voxels have
 // not changed for five scans.
 TEST_CASE("what came and stands is static again after the window", "[hmm_mos]") {
   Plate plate;
@@ -71,8 +71,8 @@ TEST_CASE("what came and stands is static again after the window", "[hmm_mos]") 
   }
 }
 
-// It stands still and drives off in scan 8: no voxel appears where it was, but the last state of
-// its voxels is free.
+// The object is stationary and drives off in scan 8: no voxel appears at its place, but the last
+// state of its voxels is free.
 TEST_CASE("what left is found by the last states only", "[hmm_mos]") {
   Plate plate;
   plate.last = 7;

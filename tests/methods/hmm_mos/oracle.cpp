@@ -177,7 +177,7 @@ void Oracle::find_threshold() {
   const int high = *std::max_element(values.begin(), values.end());
   if (low == high) return;
   constexpr int kBins = 100;
-  // Every edge between two bins, with what is up to it and what is above.
+  // Every edge between two bins, with the values up to it and above it.
   double best = 0.0;
   for (int i = 1; i < kBins; ++i) {
     const auto bin_of = [&](int value) {

@@ -36,7 +36,7 @@ class Oracle {
   void add(const Scan& scan);
   /// The online answer for the scan that was added last.
   [[nodiscard]] Mask mask(const Scan& scan) const;
-  /// Whether a point's voxel was free when something was last known of it.
+  /// Whether the last known state of a point's voxel was free.
   [[nodiscard]] Mask last_free(const Scan& scan) const;
 
   // What the steps found out about the last scan.
@@ -47,7 +47,7 @@ class Oracle {
   bool has_threshold = false;
 
   std::map<Cell, Believed> map;
-  std::map<Cell, State> last_known;  ///< Of what is in the map, or was.
+  std::map<Cell, State> last_known;  ///< Of cells that are or were in the map.
 
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& world) const;
   /// The voxels on the line of whole numbers between two, both ends included.

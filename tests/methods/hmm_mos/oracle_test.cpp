@@ -16,7 +16,7 @@ VoxelIndex voxel(const Cell& cell) {
   return {cell[0], cell[1], cell[2]};
 }
 
-/// Settings that differ in all that the steps read. Windows are short, so that scans may be few.
+/// Settings that differ in all parameters of the steps. Windows are short, to need few scans.
 std::vector<Parameters> settings() {
   std::vector<Parameters> all(6);
   for (Parameters& parameters : all) parameters.window_scans = 2;
@@ -32,7 +32,7 @@ std::vector<Parameters> settings() {
   all[3].map_scans = 2;
   all[4].reach = 1;
   all[4].least_threshold = 0.0;
-  all[4].min_range = 2.6;  // Leaves some of what moves out.
+  all[4].min_range = 2.6;  // Leaves some moving points out.
   all[5].public_lattice = false;
   all[5].spread = 1.4;
   all[5].map_scans = 1;

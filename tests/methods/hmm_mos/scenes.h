@@ -9,7 +9,7 @@
 
 namespace raymoval::hmm_mos_test {
 
-/// What stands before a wall for some scans: a plate across the view, metres.
+/// An object before a wall for some scans: a plate across the view, metres.
 struct Plate {
   double x = 2.5, y = -0.4, z = -0.4;
   double width = 0.7, height = 0.8;

@@ -16,8 +16,8 @@ namespace raymoval::hmm_mos_test {
 
 namespace {
 
-/// How many scans see past a voxel that was hit in five, at a squared distance from what they hit,
-/// until it is free.
+/// The number of scans that pass a voxel until it is free, after hits in five scans. The scans hit
+/// a surface at a squared distance from the voxel.
 int scans_until_free(const BeliefModel& model, int distance) {
   double occupied = BeliefModel::kUnobserved;
   for (int i = 0; i < 5; ++i) occupied = model.after(occupied, 0);

@@ -124,7 +124,7 @@ TEST_CASE("mapcleaner: one scan, empty scans, no ground at all") {
 TEST_CASE("mapcleaner: the terrain may begin beside a sensor that sees none below itself") {
   WorldPoints box;
   add_face(6.0, 1.8, 2.9, box);
-  // The sensor stands: its blind circle of 2.7 m is filled by 1 m only.
+  // The sensor is stationary: its blind circle of 2.7 m is filled by 1 m only.
   Parameters parameters;
   CHECK(removed_of_last(passing(box), box.size(), parameters) == 0);
   parameters.start_radius = 1.5;

@@ -13,7 +13,7 @@ namespace raymoval::mapcleaner_test {
 
 using WorldPoints = std::vector<Eigen::Vector3d>;
 
-/// Where the sensor stands by hand-made scans: 1.7 m above the level ground z = 0.
+/// The sensor's position in hand-made scans: 1.7 m above the level ground z = 0.
 inline const Eigen::Vector3d kSensor(0.05, 0.05, 1.7);
 
 /// Ground points every 0.2 m, in the middle of terrain cells, within 12 m of the origin.

@@ -50,7 +50,7 @@ TEST_CASE("mapcleaner: cells without a height take the mean of those around, by 
   const HeightGrid grid = grid_of({{{1, 0}, 1.0}, {{-1, 0}, 2.0}, {{0, 1}, 6.0}, {{0, -2}, 50.0}});
   const HeightGrid found = filled(grid, {2.0, 1e6, 1}, 1);
   CHECK(height_of(found, 0, 0) == Approx(3.0).epsilon(1e-5));
-  CHECK(height_of(found, 1, 0) == 1.0);  // Those with a height keep it.
+  CHECK(height_of(found, 1, 0) == 1.0);  // Cells with a height keep it.
   CHECK_FALSE(has_height(filled(grid, {0.0, 1e6, 1}, 1), 0, 0));
   // Of three cells each, (0, 0) and (0, 1) have enough around them. The other two neighbours have
   // no smooth height, and do not count.
@@ -108,7 +108,7 @@ TEST_CASE("mapcleaner: filling goes over the borders of tiles and not by threads
     for (int y = -9; y < 76; ++y) {
       const double height = height_of(one, x, y);
       CHECK((height == height_of(two, x, y) || (std::isnan(height) && !has_height(two, x, y))));
-      // On the slope, inside: neighbours balance but for where they lie on the lattice.
+      // Inside the slope: neighbours balance, except for their places on the lattice.
       if (x < -64 || x > 132 || y < 2 || y > 62) continue;
       ++filled_cells;
       if (std::abs(height - (0.01 * x - 0.02 * y)) > 0.03) FAIL(x << " " << y << " " << height);

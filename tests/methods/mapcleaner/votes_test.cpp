@@ -35,7 +35,7 @@ RangeImage image_of(const Parameters& parameters, const std::vector<Eigen::Vecto
   return image;
 }
 
-/// What an image says of a place.
+/// The observation of a place by an image.
 Sight look(const RangeImage& image, const Eigen::Vector3f& place) {
   return image.look(pixel_of(image.frame(), place), place.norm());
 }

@@ -103,7 +103,7 @@ TEST_CASE("cells are half open and negative ones are found by floor") {
 }
 
 TEST_CASE("a beam too short to be squared ends, wherever its sensor stands") {
-  // The sensor of the first scan stands in the tree's centre, on walls along all axes.
+  // The sensor of the first scan is in the tree's centre, on cell walls along all axes.
   HandMap map({});
   for (const double length : {1e-45, 1e-38, 1e-27, 1e-20, 1e-15, 1e-9}) {
     for (int signs = 0; signs < 27; ++signs) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cells of 0.2 m, liboctomap's log-odds: hit +0.8473, miss -0.4055, clamped to [-2.0000, 3.5110].
-// Unless a test says otherwise the sensor stands in (0.1, 0.1, 0.1), and all happens on the line
-// y = z = 0.1: A is the cell of x = 1.1, W that of x = 2.1, A on the way to W.
+// By default the sensor is at (0.1, 0.1, 0.1), and all cells are on the line y = z = 0.1: A is the
+// cell of x = 1.1, W the cell of x = 2.1, A on the way to W.
 #include "methods/octomap/octomap.h"
 
 #include <catch2/catch.hpp>
@@ -145,10 +145,10 @@ TEST_CASE("ground frees its beams and is not hit") {
 
 #if RAYMOVAL_PCL
 TEST_CASE("ground always stays") {
-  // The sensor looks along the road from 10 m before it, 1.72 m above it. A beam that ends 15 m off
-  // stays in the road's layer of cells, 0.17 m above the road, for the last 1.5 m: six rows. So a
-  // cell of the road is hit in one scan and crossed in up to five, and many go. A person who stands
-  // there in scan 0 goes, too: the wall is seen through their place five times.
+  // The sensor faces along the road from 10 m before it, 1.72 m above it. A beam that ends 15 m
+  // away is in the road's layer of cells, 0.17 m above the road, for the last 1.5 m: six rows. So a
+  // cell of the road is hit in one scan and crossed in up to five, and many are removed. A person
+  // who is there in scan 0 is removed, too: beams to the wall cross the place five times.
   HandScans scans;
   for (int i = 0; i < 6; ++i) {
     Points points = road_and_wall(i);
@@ -227,9 +227,9 @@ TEST_CASE("every point is answered as after plain calls of insertPointCloud", "[
 }
 
 TEST_CASE("the lattice's place changes a bounded share of the verdicts", "[slow]") {
-  // The tree's centre is rounded to whole cells, so a move by part of a cell moves the lattice
+  // The tree's centre is rounded to whole cells, so a shift by part of a cell moves the lattice
   // under the world. Measured: sideways 0.4 and 0.6 % of the points change; upwards by half a cell
-  // 18 %, for what part of the road goes depends on how high it lies in its layer of cells.
+  // 18 %, because the removed part of the road depends on its height in its layer of cells.
   const World world = street(8);
   const std::size_t points = toy::point_count(world);
   const auto share = [&](double x, double y, double z) {

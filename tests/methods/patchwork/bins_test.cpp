@@ -143,7 +143,7 @@ TEST_CASE("patchwork: what lies deep in the innermost zone does not say where gr
   GroundParameters high;
   high.sensor_height = 2.0;
   CHECK(count_between(ground_in_bin(points, true, high), 0, 100) == 0);
-  // Ground that falls away is no mirror image: where all of it is deep, all of it is looked at.
+  // Descending ground is no mirror image: if all of it is deep, all of it is used.
   const Points valley = square(5.0, -3.0);
   CHECK(count_between(ground_in_bin(valley, true), 0, 100) == 100);
 }

@@ -39,7 +39,7 @@ int second_scan(const Piece& piece) {
 TEST_CASE("patchwork: level ground all around is ground, and what stands on it is not") {
   Scan scan = ring_scan([](int) { return Piece{}; });
   scan.points.emplace_back(5.0F, 0.1F, -1.0F);
-  scan.points.emplace_back(2.0F, 0.1F, -1.7F);   // Nearer than ground is looked for.
+  scan.points.emplace_back(2.0F, 0.1F, -1.7F);   // Nearer than the search for ground.
   scan.points.emplace_back(81.0F, 0.1F, -1.7F);  // Farther.
   scan.points.emplace_back(30.0F, 0.1F, -1.7F);  // Alone in its bin.
   scan.points.emplace_back(0.0F, 0.0F, 0.0F);
@@ -110,9 +110,9 @@ TEST_CASE("patchwork: at first all planes below the sensor are low enough, later
 }
 
 TEST_CASE("patchwork: a plane that is not low must be as flat as the others of its ring") {
-  // Flatness is the square of the roughness, but for 100 / 99 and rounding: 8 planes each have 4
-  // and 9 cm^2, the mean is 6.5 and the sample deviation 2.58. Flat enough is what is below 9.1,
-  // by TGR below 10.4 (all by 100 / 99).
+  // Flatness is the square of the roughness, except for 100 / 99 and rounding: 8 planes each have 4
+  // and 9 cm^2, the mean is 6.5 and the sample deviation 2.58. A plane is flat enough below 9.1, by
+  // TGR below 10.4 (all times 100 / 99).
   CHECK(second_scan({-0.9, 0.025}) == 100);
   CHECK(second_scan({-0.9, 0.0315}) == 100);  // 9.9: TGR takes it.
   CHECK(second_scan({-0.9, 0.033}) == 0);     // 10.9.

@@ -78,8 +78,8 @@ Points ground(double height, const std::vector<double>& distances) {
 }  // namespace
 
 TEST_CASE("beams to flat ground end one voxel diagonal above it", "[peopleremover]") {
-  // Height 1.73 m, voxels of 0.2 m: 1 - 0.3464 / 1.73 = 0.79976 of the way, wherever the ring is
-  // and however far from the next, as long as a neighbourhood holds more than one ring.
+  // Height 1.73 m, voxels of 0.2 m: 1 - 0.3464 / 1.73 = 0.79976 of the way, for any ring at any
+  // distance from the next, as long as a neighbourhood has more than one ring.
   std::vector<double> distances;
   for (double d = 4.0; d < 42.0; d *= 1.008) distances.push_back(d);
   const Points points = ground(1.73, distances);

@@ -73,7 +73,7 @@ class SlowPeopleremover {
              (scan.T_world_sensor * end) * (1.0 / p_.voxel_size));
     }
   }
-  /// @return whether the beam goes on
+  /// @return whether the beam continues
   bool visit(int i, VoxelKey x) {
     const auto found = occupied_.find(x);
     if (found == occupied_.end()) return true;
@@ -163,7 +163,7 @@ TEST_CASE("peopleremover removes what moves on the street and keeps the rest", "
   const MaskStore masks = masks_of(*peopleremover("normals", {}).make(), world);
   CHECK(removed_share(world, masks, 0, 0, 11) < 0.05);  // Road.
   CHECK(removed_share(world, masks, 1, 0, 11) < 0.01);  // Wall.
-  // What stands before the sky, or out of the rows' reach, is never seen through.
+  // Beams never pass an object before the sky or out of reach of the rows.
   CHECK(removed_share(world, masks, 3, 0, 6) > 0.5);  // Car.
   CHECK(removed_share(world, masks, 4, 0, 8) > 0.7);  // Person.
   // Whole beams take a good part of the road with them.

@@ -75,7 +75,7 @@ TEST_CASE("peopleremover: with diff, a voxel of the window also stops the beam",
   const ListedScans scans = ListedScans().row({3.5}).row({8.5}).row({4.5}).row({4.5}).row({6.5});
   CHECK(verdicts(scans) == Verdicts{{1}, {0}, {1}, {1}, {1}});
   // Scan 1: stopped in 3 (scan 0). Scans 2 and 3 free voxel 3. Scan 4 frees 3, is stopped in 4
-  // (scan 3 in its window). Voxel 6: nobody gets there.
+  // (scan 3 in its window). Voxel 6: no beam gets there.
   CHECK(verdicts(scans, {{"diff", std::int64_t{1}}, {"subvoxel_accuracy", false}}) ==
         Verdicts{{1}, {0}, {0}, {0}, {0}});
 }
@@ -103,8 +103,8 @@ TEST_CASE("peopleremover: near a freed voxel only the scans with points in it lo
 
 TEST_CASE(
     "peopleremover: a scan that never looked through also loses points near the freed voxel") {
-  // Scan 1 frees voxel 3 and stops in voxel 4. Scan 2 stops in voxel 3, and yet it has a point
-  // there: its point in voxel 4 goes, scan 1's stays.
+  // Scan 1 frees voxel 3 and stops in voxel 4. Scan 2 stops in voxel 3 and also has a point in
+  // voxel 4: this point is removed, scan 1's is kept.
   CHECK(verdicts(ListedScans().row({3.5}).row({4.5}).row({3.5, 4.5})) ==
         Verdicts{{1}, {0}, {1, 1}});
 }
@@ -127,8 +127,8 @@ TEST_CASE("peopleremover: clusters are those of all scans together", "[peoplerem
 
 TEST_CASE("peopleremover: the sensor's own voxel stops nothing and can be freed",
           "[peopleremover]") {
-  // Scan 0 stands 3 m back and has a point in the voxel of scan 1's sensor, (0, 0, 0). Scan 1's
-  // own point nearer than the minimum range counts for nothing.
+  // Scan 0 is 3 m back and has a point in the voxel of scan 1's sensor, (0, 0, 0). Scan 1's own
+  // point nearer than the minimum range is ignored.
   ListedScans scans;
   scans.scan(pose_at(0.5, 0.5, -2.5), {{0.5, 0.5, 0.5}});
   scans.scan(pose_at(0.4, 0.5, 0.5), {{0.9, 0.5, 0.5}, {5.5, 0.5, 0.5}});
@@ -158,7 +158,7 @@ TEST_CASE("peopleremover: cells go down to minus infinity, not towards zero", "[
 
 TEST_CASE("peopleremover: point shadows keep what stands right before a wall", "[peopleremover]") {
   // Wall at x = 8.5, normal (-1, 0, 0). Its axis beam ends sqrt(3) m in front: at x = 6.77, in
-  // voxel 6. A point in voxel 7 stays, one in voxel 5 goes.
+  // voxel 6. A point in voxel 7 is kept, a point in voxel 5 is removed.
   const std::vector<Eigen::Vector3d> wall = points_of_wall();
   for (const double x : {7.5, 5.5}) {
     ListedScans scans;

@@ -23,14 +23,14 @@ std::vector<std::size_t> shuffled(std::size_t count, std::mt19937& random) {
   return order;
 }
 
-/// The places of a scan whose points stay as they are.
+/// The places of a scan with unchanged points.
 std::vector<Place> unmoved(std::size_t scan, std::size_t points) {
   std::vector<Place> places;
   for (std::size_t k = 0; k < points; ++k) places.push_back({scan, k});
   return places;
 }
 
-/// Adds a scan of the world before, as it is.
+/// Adds an unchanged scan of the original world.
 void keep(const Scan& scan, ChangedWorld& changed) {
   changed.now.push_back(unmoved(changed.scans.size(), scan.size()));
   changed.scans.add_scan(scan);

@@ -23,7 +23,7 @@ struct ChangedWorld {
   std::vector<std::pair<Place, Place>> twins = {};  ///< Points of `scans` in the same place.
 };
 
-/// A change of what a method is given.
+/// A change of the input of a method.
 struct Change {
   const char* name;
   ChangedWorld (*make)(const HeldScans& world, std::mt19937& random);

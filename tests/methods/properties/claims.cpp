@@ -10,11 +10,11 @@
 namespace raymoval::toy {
 namespace {
 
-// A variant without a line claims only what each must hold: an online one answers no scan otherwise
+// A variant without a line has only the claims of all: an online method answers each scan the same
 // if the last scans are left out. The columns: an empty scan at the end, one between, a scan in two
 // halves, points in another order, points doubled, the world moved, the last scans left out, scans
-// in another order, a scan given twice. = the same answer, ~ the same but for rounding,
-// + more may go, - more may stay, ? anything.
+// in another order, a scan given twice. = the same answer, ~ the same except for rounding,
+// + more may be removed, - more may be kept, ? anything.
 struct Line {
   std::string_view variant, about;
 };
@@ -67,7 +67,7 @@ constexpr Line kLines[] = {
     {"removert:code", "= = + ~ ? ~ ? ~ ?"},
     {"removert:port", "= = + ~ ? ~ ? ~ ?"},
 
-    // Every n-th scan is a query, so that empty ones count, but for n = 1.
+    // Every n-th scan is a query, so that empty scans count, except for n = 1.
     {"erasor:general", "= ? ? ~ ? = ? ? ?"},
     {"erasor:kitti00", "= ? ? ~ ? = ? ? ?"},
     {"erasor:kitti01", "= = ? ~ ? = ? ? ?"},
@@ -78,8 +78,8 @@ constexpr Line kLines[] = {
     {"erasor:version2", "= ? ? ~ ? = ? ? ?"},
     {"erasor:auto", "= ? ? ~ ? = ? ? ?"},
 
-    // Voids are united over scans, and a scan is a set of voxels. In halves, the points of one do
-    // not protect their voxels from the beams of the other, and neither knows as much around it.
+    // Voids are united over scans, and a scan is a set of voxels. The points of one half do not
+    // protect their voxels from the beams of the other half, and each half has fewer neighbours.
     {"dufomap:offline", "= = ? = = = - = ="},
     {"dufomap:online", "= = ? = = = = ? ="},
     {"dufomap:offline-dp2", "= = ? = = = - = ="},
@@ -103,8 +103,8 @@ constexpr Line kLines[] = {
     {"hmm_mos:offline", "= ? ? = = = ? ? ?"},
 
     // Scans are counted, empty ones too. A pixel has its nearest return and a voxel is hit or not,
-    // but a cluster has a least number of points. The last scan is judged before it is taken in,
-    // and free space is looked at again when an empty one comes.
+    // but a cluster has a least number of points. The last scan is judged before it is integrated,
+    // and free space is evaluated again with an empty scan.
     {"dynablox:published", "= ? ? = ? ~ = ? ?"},
     {"dynablox:wide", "= ? ? = ? ~ = ? ?"},
     {"dynablox:offline", "? ? ? = = ~ ? ? ?"},

@@ -9,7 +9,7 @@ namespace raymoval::toy {
 /// What a change of the input may do to the verdicts on the points that are still there.
 enum class Claim : char {
   kSame = '=',      ///< Nothing.
-  kRounding = '~',  ///< Nothing but for rounding, which may decide for single points.
+  kRounding = '~',  ///< No change except by rounding, which may decide single points.
   kMore = '+',      ///< What was removed stays removed; more may go.
   kFewer = '-',     ///< What was kept stays kept; more may stay.
   kOpen = '?',      ///< Anything.
@@ -20,8 +20,7 @@ struct Claims {
   std::vector<Claim> about;  ///< In the order of `changes`.
 };
 
-/// What each variant of each method promises; those of a variant are a line of claims.cpp, or
-/// those that every method must hold.
+/// The claims of each variant of each method: its line in claims.cpp, or the claims of all methods.
 const std::vector<Claims>& claims();
 
 }  // namespace raymoval::toy

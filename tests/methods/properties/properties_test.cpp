@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a change of the input may do to a method's answer, and what it may not: `claims` says it for
-// each variant, and small random worlds try it.
+// Allowed effects of a change of the input on a method's answer: `claims` lists them for each
+// variant, and small random worlds test them.
 //
-// The worlds are the same in every run. For a larger campaign, with a summary of what changed:
+// The worlds are the same in every run. For a larger campaign, with a summary of changes:
 //   RAYMOVAL_WORLDS=100 RAYMOVAL_SEED=7 build/release/test_methods '[properties]'
 #include <fmt/format.h>
 #include <rapidcheck.h>
@@ -27,8 +27,8 @@ using toy::Claim;
 namespace {
 
 constexpr std::size_t kWorlds = 2;
-/// In so many worlds, what may change does so at least once for some variant of the method, or
-/// stricter claims would hold.
+/// In this many worlds, each allowed change must occur for some variant of the method; else a
+/// stricter claim would hold.
 constexpr std::size_t kEnoughWorlds = 60;
 const std::string kLastLeftOut = "the last scans left out";
 
@@ -42,7 +42,7 @@ constexpr double kDelay = 0.2;
 /// Times are multiples of a tenth, which round.
 constexpr double kRounding = 1e-9;
 
-/// How many seconds after a scan a method answers it; 0 for all that have no such parameter.
+/// Delay of a method's answer to a scan, seconds; 0 for methods without such a parameter.
 double answer_delay(const ConfiguredMethod& method) {
   for (const auto& [name, value] : method.configuration) {
     if (name == "delay") return std::get<double>(value);
@@ -112,8 +112,8 @@ bool holds(Claim claim, const Difference& found) {
   return false;
 }
 
-/// Leaves the scans out whose answers came later than the last scan that is left, which a method
-/// with a delay gave with less than it knows otherwise.
+/// Leaves out scans whose answers came after the last remaining scan: a method with a delay answers
+/// these with fewer scans than otherwise.
 void compare_answered(const toy::HeldScans& world, double delay, toy::ChangedWorld& changed) {
   const double last = changed.scans.scans().back().time_s;
   while (!changed.now.empty() &&
@@ -130,7 +130,7 @@ std::size_t parted_twins(const MaskStore& masks, const toy::ChangedWorld& change
   return parted;
 }
 
-/// What the worlds so far have shown of a variant.
+/// Results of a variant in the worlds up to now.
 struct Findings {
   std::size_t removed = 0;
   std::map<std::string, int> changed_worlds;  ///< By change.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run tells besides its masks: the reason of each point, and the stages it was timed by.
+// Outputs of a run besides masks: the reason of each point, and the timed stages.
 #include <catch2/catch.hpp>
 #include <map>
 #include <numbers>
@@ -73,7 +73,7 @@ TEST_CASE("each point's reason fits its answer", "[raymoval]") {
 
 TEST_CASE("a point that eq. 11 alone speaks against is not told to have been seen through",
           "[raymoval]") {
-  // The wall ends at 0.3 m, so that no return tells that the upper half of the box has left.
+  // The wall ends at 0.3 m, so that no return shows that the upper half of the box has left.
   const World world = box_before_wall(0.3);
   auto shares = reasons_of(on_toy_grid("offline"), world, kOtherOwner);
   CHECK(shares["a scan saw t"] > 20);

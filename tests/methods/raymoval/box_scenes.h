@@ -10,7 +10,7 @@ using toy::Box;
 using toy::pose_at;
 using toy::World;
 
-/// What stands is box 0, and what comes or goes before it the next one.
+/// The static object is box 0, and the object that comes or goes before it is box 1.
 inline constexpr int kWallOwner = 0;
 inline constexpr int kOtherOwner = 1;
 
@@ -22,12 +22,12 @@ inline Box car(double bottom = -1.0) {
   return {{6.03, -1, bottom}, {8, 1, 0.6}};
 }
 
-/// The pose of a scan of a sensor that stands off the lattice and creeps ahead.
+/// The pose of a scan of a sensor that is off the lattice and moves slowly ahead.
 inline Pose creeping(int scan) {
   return pose_at(0.013 * scan + 0.01, 0.02, 0.03);
 }
 
-/// Scans of what stands, and of a box in those scans in which it `is_there`.
+/// Scans of the static object, and of a box in the scans in which it `is_there`.
 template <class IsThere>
 World box_before(const std::vector<Box>& standing, const Box& box, int scans, IsThere&& is_there,
                  const toy::Scanner& scanner = {}, const Pose& sensor_turn = Pose::Identity()) {

@@ -18,10 +18,10 @@ TEST_CASE("eq. 11: a point is dynamic if the map lies farther by more than the m
 }
 
 TEST_CASE("flat ground seen at a grazing angle is not seen through") {
-  // A ray that falls 0.05 m a metre crosses 0.2 m of height in 4 m, whichever way it goes.
+  // A ray that falls 0.05 m per metre crosses 0.2 m of height in 4 m, in any direction.
   CHECK(grazing_distance(-0.05, 0.2, 5.0) == Approx(4.0));
   CHECK(grazing_distance(0.05, 0.2, 5.0) == Approx(4.0));
-  // Level rays would never cross it: the limit stands in.
+  // Level rays would never cross it: the limit is used.
   CHECK(grazing_distance(-0.001, 0.2, 5.0) == Approx(5.0));
   CHECK(grazing_distance(0.0, 0.2, 5.0) == Approx(5.0));
   CHECK(grazing_distance(-1.0, 0.2, 5.0) == Approx(0.2));

@@ -31,7 +31,7 @@ class Lookout {
     double range;
   };
 
-  /// Takes a scan, and gives what it erases of a map of `voxel` alone.
+  /// The voxels that a scan erases from a map of `voxel` alone.
   std::vector<VoxelIndex> seen_through(const std::vector<Return>& returns,
                                        const VoxelIndex& voxel) {
     StaticMap map(parameters.voxel_size);
@@ -44,8 +44,8 @@ class Lookout {
     return finder.find(test, map.occupied(), {});
   }
 
-  /// Whether the voxel 9.5 m ahead is erased by a return far behind it, while a return at its front
-  /// lies so many columns and rows beside that one.
+  /// Whether the voxel 9.5 m ahead is erased by a return far behind it. Another return, at the
+  /// front of the voxel, is `columns` and `rows` beside that return.
   bool is_erased_beside(int columns, int rows) {
     const VoxelIndex ahead(10, 0, 0);
     const auto seen = seen_through({{180, 60, 30.0}, {180 + columns, 60 + rows, 9.4}}, ahead);
@@ -91,7 +91,7 @@ TEST_CASE("a return at the front saves a voxel as far as the next beam", "[raymo
   // Beams nearer than rows: one row at least.
   lookout.sensor.elevation_step = 0.01 * kDegree;
   CHECK(lookout.reach_of_rows() == 1);
-  // What is asked for goes first, none included.
+  // A given value takes precedence, also 0.
   lookout.parameters.erase_elevation_window = 2;
   CHECK(lookout.reach_of_rows() == 2);
   lookout.parameters.erase_elevation_window = 0;

@@ -136,8 +136,8 @@ TEST_CASE("a sensor level with a layer of loose voxels sees them all around") {
 }
 
 TEST_CASE("the outermost voxel of a brick is hit at the end of the range, whichever way it lies") {
-  // Voxels of 1 m, bricks of 8. Forward along an axis the sensor stands 0.9 m in its voxel and
-  // meets voxel 8 after 7.1 m; backward it stands 0.1 m in it and meets voxel -9 after 8.1 m.
+  // Voxels of 1 m, bricks of 8. Forward along an axis, the sensor is 0.9 m in its voxel and the ray
+  // hits voxel 8 after 7.1 m; backward it is 0.1 m in it and the ray hits voxel -9 after 8.1 m.
   for (int axis = 0; axis < 3; ++axis) {
     for (const int sign : {1, -1}) {
       const double expected = sign > 0 ? 7.1 : 8.1;

@@ -129,7 +129,7 @@ TEST_CASE("a bin is seen through beyond the margins and not at them", "[raymoval
 TEST_CASE("points as far apart as the reach are one cluster, and no farther", "[raymoval]") {
   const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0.5, 0, 0}, {1.0009765625, 0, 0}};
   CHECK(range_adaptive_clusters(points, {8, 8, 8}, 0.25, 0.03125) == std::vector<int>{0, 0, 1});
-  // In what would be one cell if cells were a little larger: 1.037 m apart, reach 1 m.
+  // In one cell if cells were a little larger: 1.037 m apart, reach 1 m.
   const std::vector<Eigen::Vector3d> corners = {{0.001, 0.001, 0.001}, {0.6, 0.6, 0.6}};
   CHECK(range_adaptive_clusters(corners, {1, 1}, 1.0, 0.0) == std::vector<int>{0, 1});
 }
@@ -236,7 +236,7 @@ TEST_CASE("the rows reach beyond the sensor's view by the margin, and not beyond
   sensor.elevation_max = 1.45;
   CHECK(grid_for(sensor, parameters).elevation_min == -kHalfPi);
   CHECK(grid_for(sensor, parameters).elevation_max == kHalfPi);
-  // What is asked for goes before the sensor's steps.
+  // Given numbers of bins take precedence over the sensor's steps.
   sensor.azimuth_step = sensor.elevation_step = 0.01;
   parameters.azimuth_bins = parameters.elevation_bins = 1;
   CHECK(grid_for(sensor, parameters).size() == 1);

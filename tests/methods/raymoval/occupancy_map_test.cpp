@@ -130,7 +130,7 @@ TEST_CASE("a brick that is filled voxel by voxel ends with few boxes") {
     map.update_boxes(1);
     most = std::max(most, map.boxes(0).size());
   }
-  // What is filled so far is three boxes at most: a block, rows on it and the last voxels.
+  // The filled voxels are three boxes at most: a block, rows on it and the last voxels.
   CHECK(most <= 3);
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("raymoval's variants change what their names say", "[raymoval]") {
     found.emplace_back(variant.name, told);
   }
   CHECK(found == expected);
-  // What `list` and `describe` tell of it, and what results are traced to.
+  // The facts that `list`, `describe` and results show.
   CHECK(entry.name == "raymoval");
   CHECK(entry.version == "3");
   CHECK_FALSE(entry.sentence.empty());

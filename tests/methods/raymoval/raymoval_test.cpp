@@ -129,8 +129,9 @@ TEST_CASE("eq. 11 decides by its margin") {
 }
 
 TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
-  // The wall ends at 0.3 m, so nothing lies behind the upper half of the box: when it has left, no
-  // return tells that its voxels are empty. Beside what was seen through, eq. 11 finds its edge.
+  // The wall ends at 0.3 m, so there is no surface behind the upper half of the box: when it has
+  // left, no return shows that its voxels are empty. Beside the erased voxels, eq. 11 finds its
+  // edge.
   const World world = box_before({wall(0.3)}, kCar, 10, [](int i) { return i < 5; });
   ConfiguredMethod method = on_toy_grid("offline");
   const auto share = [&] {
@@ -144,7 +145,7 @@ TEST_CASE("eq. 11 finds what is left of a box that was seen through in part") {
 }
 
 TEST_CASE("online, what stands where a scan has seen through is removed") {
-  // The box comes back. Without eq. 11 only what was seen through tells that it moves.
+  // The box comes back. Without eq. 11, only erased voxels show that it moves.
   const World world = box_before({kWall}, kCar, 12, [](int i) { return i < 4 || i >= 8; });
   ConfiguredMethod method = on_toy_grid("online");
   switch_eq11_off(method);
@@ -163,7 +164,7 @@ TEST_CASE("far from the origin nothing changes") {
 }
 
 TEST_CASE("directions without return erase nothing") {
-  // The box stands before nothing at all; when it leaves, its directions have no returns.
+  // There is no surface behind the box; when it leaves, its directions have no returns.
   const Box side{{-9, 6.03, -3}, {9, 6.5, 3}};
   const World world = box_before({side}, kCar, 10, [](int i) { return i < 4; });
   CHECK(toy::removed_share(world, run("offline", world), kOtherOwner, 0, 3) == 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a static map holds and what it remembers.
+// The voxels of a static map and its memory.
 #include <catch2/catch.hpp>
 
 #include "methods/raymoval/static_map.h"
@@ -11,7 +11,7 @@ TEST_CASE("a voxel that was erased is never filled again", "[raymoval]") {
   const VoxelIndex voxel(1, 2, 3), never(1, 2, 4);
   StaticMap map(0.2);
   map.integrate({voxel});
-  map.erase(never);  // Nothing stands there.
+  map.erase(never);  // The voxel is empty.
   map.erase(voxel);
   map.integrate({voxel});
   CHECK_FALSE(map.occupied().contains(voxel));

@@ -35,7 +35,7 @@ TEST_CASE("bins are wanted around every value, and nowhere else") {
     const int radius = random.integer(0, 4);
     INFO(grid.azimuth_bins << " x " << grid.elevation_bins << ", radius " << radius);
     WantedBins wanted;
-    wanted.ask_for_all(grid);  // What was asked before is forgotten.
+    wanted.ask_for_all(grid);  // Replaces earlier requests.
     wanted.ask_around(values, grid, radius);
     for (int bin = 0; bin < grid.size(); ++bin) {
       const auto around = values_around(values, {grid, radius, radius}, bin);

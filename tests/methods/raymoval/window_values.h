@@ -8,7 +8,7 @@
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
-/// The values within so many columns and rows of a bin.
+/// The values within a number of columns and rows around a bin.
 inline std::vector<float> values_around(const std::vector<float>& values, const BinWindow& window,
                                         int bin) {
   const AngularGrid& grid = window.grid;

@@ -16,14 +16,14 @@ using namespace raymoval::raymoval_plus_method;
 namespace {
 
 constexpr int kScans = 10;
-/// The points of a scan of `Street`: those of the walker, of the thing that is dynamic in part, the
-/// two points of ground at its foot, and the ground below these.
+/// The points of a scan of `Street`: the walker, the partly dynamic object, the two points of
+/// ground at its foot, and the ground below these.
 constexpr std::size_t kWalker = 0, kFoot = 38, kBeside = 39, kPoints = 42;
 
-/// A scan's points; those that are dynamic come first in either thing. The ground is at z = 0.
+/// A scan's points; dynamic points come first in each object. The ground is at z = 0.
 std::vector<Eigen::Vector3d> points_of(int scan) {
   std::vector<Eigen::Vector3d> points;
-  const double x = 10.1 + 0.4 * scan;  // The walker goes on by two voxels a scan.
+  const double x = 10.1 + 0.4 * scan;  // The walker moves by two voxels per scan.
   for (int k = 0; k < 20; ++k) points.emplace_back(x, -15.1, 0.7 + 0.1 * k);
   for (const double z : {0.7, 0.75, 0.9, 1.1}) points.emplace_back(10.1, 0.1, z);
   for (const double z : {0.7, 0.9}) points.emplace_back(10.3, 0.1, z);
@@ -35,13 +35,13 @@ std::vector<Eigen::Vector3d> points_of(int scan) {
   return points;
 }
 
-/// Whether scans saw through a point's voxel. Nothing is known of where the walker is in the last
-/// three scans.
+/// Whether scans observed a point's voxel as free. There are no observations of the walker's place
+/// in the last three scans.
 bool is_seen_through(int scan, std::size_t point) {
   return point < 20 ? scan < 7 : point < 26;
 }
 
-/// A terrain, a map whose verdicts are as the scene wants them, and the scans.
+/// A terrain, a map with the verdicts of the scene, and the scans.
 struct Street {
   explicit Street(const Parameters& some)
       : parameters(some), terrain(parameters), maps(parameters) {
@@ -100,11 +100,11 @@ struct NoEvidence : EvidenceSink {
 }  // namespace
 
 TEST_CASE("who asks for confidence gets the same masks, also where clusters have ground in them") {
-  // What is lower than 0.5 m is ground, and what is higher than 0.2 m is clustered. Of the thing, 6
-  // of 20 points are dynamic, so that it stays as its voxels are. The points of ground at its foot
-  // are as high as what is clustered, and do not follow what stands above them. If they did, the
-  // first would have these 6 and 2 others around it, itself included, and go, and then the other
-  // one as well, but only where step 8 runs twice.
+  // Points below 0.5 m are ground, and points above 0.2 m are clustered. Of the object, 6 of 20
+  // points are dynamic, so that it keeps the verdicts of its voxels. The points of ground at its
+  // foot are as high as clustered points, and do not follow the object above them. If they did, the
+  // first point would have these 6 and 2 others around it, itself included, and be removed, and
+  // then the other point as well, but only if step 8 runs twice.
   Parameters parameters;
   parameters.object_height = 0.2;
   parameters.ground_height = 0.5;

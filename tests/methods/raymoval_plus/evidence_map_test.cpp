@@ -57,7 +57,7 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
 }
 
 TEST_CASE("a roof stands alone in its column, one voxel high or two") {
-  // Other voxels so many metres above it.
+  // Other voxels at these heights above it, metres.
   struct Others {
     std::vector<double> above;
     bool is_roof;

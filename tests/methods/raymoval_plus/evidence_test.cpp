@@ -22,13 +22,14 @@ RangeImage image_of_return(float range) {
   return image;
 }
 
-/// Asks an image of all voxels.
+/// Observes all voxels in an image.
 void ask(const RangeImage& image, const Scan& scan, EvidenceMap& map) {
   const PosedImage posed{&image, scan.T_world_sensor, 0};
   add_evidence(std::span(&posed, 1), Parameters{}, WhenToDecide::kLater, RunContext{}, map);
 }
 
-/// Decides on a voxel that 10 scans see through, some of them beside what is there.
+/// The verdict on a voxel with 10 free scans. No beam of the scans in `beside` passed at the height
+/// of the voxel's points.
 Verdict decided_with(std::uint16_t agree, const ScansBeside& beside, int height_scans = 5) {
   Parameters parameters;
   parameters.height_scans = height_scans;
@@ -44,7 +45,7 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
                           std::uint16_t trailing = 0) {
     return decide({free, agree, leading, trailing}, Parameters{});
   };
-  // Needed: 1 + 0.3 x the scans that agree.
+  // Needed: 1 + 0.3 x the supporting scans.
   CHECK(decided(1, 0) == Verdict::kDynamic);
   CHECK(decided(3, 10) == Verdict::kStatic);
   CHECK(decided(4, 10) == Verdict::kDynamic);
@@ -57,25 +58,25 @@ TEST_CASE("scans that see through are weighed against scans that agree") {
 }
 
 TEST_CASE("where some scans agree, those beside the voxel's points are not heard between them") {
-  // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
+  // Needed of the 10 free scans: 1 + 0.3 x 20.
   CHECK(decided_with(20, {}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 3, 0}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 4, 0}) == Verdict::kStatic);
-  // Since the last one that agrees, they are heard: what left may have been looked at from afar.
+  // After the last supporting scan, they count: an object that left may be observed from afar only.
   CHECK(decided_with(20, {0, 3, 3}) == Verdict::kDynamic);
-  // Nor are those heard that agree beside them.
+  // Supporting scans without a beam at that height do not count either.
   CHECK(decided_with(20, {7, 4, 0}) == Verdict::kDynamic);
-  CHECK(decided_with(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided_with(4, {0, 9, 0}) == Verdict::kDynamic);  // Too few supporting scans.
   CHECK(decided_with(20, {0, 4, 0}, 0) == Verdict::kDynamic);
 }
 
 TEST_CASE("where many scans agree, those beside the whole column are not heard at all") {
-  // Needed of the 10 scans that see through it: 1 + 0.3 x 20.
+  // Needed of the 10 free scans: 1 + 0.3 x 20.
   CHECK(decided_with(20, {0, 0, 0, 2, 1}) == Verdict::kDynamic);
   CHECK(decided_with(20, {0, 0, 0, 2, 2}) == Verdict::kStatic);
   CHECK(decided_with(20, {0, 2, 0, 1, 1}) == Verdict::kStatic);
   CHECK(decided_with(20, {0, 0, 0, 2, 2}, 6) == Verdict::kStatic);
-  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few agree.
+  CHECK(decided_with(20, {0, 0, 0, 2, 2}, 7) == Verdict::kDynamic);  // Too few supporting scans.
   CHECK(decided_with(20, {0, 0, 0, 2, 2}, 0) == Verdict::kDynamic);
 }
 
@@ -94,7 +95,7 @@ TEST_CASE("scans beside the whole column count before the first and since the la
   CHECK(evidence.beside.column_since == 3);
   CHECK(evidence.trailing_free == 1);
   add(kAgree, false);
-  CHECK(evidence.beside.column_since == 0);  // All were between scans that agree, ...
+  CHECK(evidence.beside.column_since == 0);  // All were between supporting scans, ...
   CHECK(evidence.beside.free_between_agreeing == 3);
   CHECK(evidence.beside.column_before == 2);  // ... but not these.
   CHECK(evidence.free_scans == 7);
@@ -124,8 +125,8 @@ TEST_CASE("scans that pass beside a voxel's points are counted by themselves as 
 
 TEST_CASE("a beam above or below points passes beside them, one at their height does not") {
   // The top of a van, 1 m above the sensor and 20 m ahead, whose points are 1 cm above and below
-  // their mean, and its side; and a scan that sees farther in some beams: so high above that mean,
-  // metres.
+  // their mean, and its side; and a scan with farther returns in some beams, at these heights above
+  // that mean, metres.
   struct Beams {
     std::vector<double> above;
     bool is_beside;
@@ -133,7 +134,7 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
   const auto [above, is_beside] =
       GENERATE(Beams{{-0.13}, true}, Beams{{-0.09}, false}, Beams{{0.0}, false},
                Beams{{0.09, -0.13}, false}, Beams{{0.13, -0.13}, true});
-  const bool is_tilted = GENERATE(false, true);  // A sensor that looks down a little sees the same.
+  const bool is_tilted = GENERATE(false, true);  // A slightly pitched sensor gives the same.
   MapPoints points;
   EvidenceMap& map = points.map;
   const auto roof = points.add({20.02, 0.02, 1.03});
@@ -149,7 +150,7 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
     scan.points.push_back((scan.T_world_sensor.inverse() * beyond).cast<float>());
   }
   SensorModel sensor = Scanner{}.model();
-  // Steps that are the same both ways tell a sensor without even beams, of which nothing is beside.
+  // Equal steps both ways mean a sensor without even beams, for which `ScansBeside` stays 0.
   const bool has_beams = GENERATE(true, false);
   CAPTURE(above, is_tilted, has_beams);
   if (has_beams) sensor.azimuth_step = 0.25 * kDegree;
@@ -162,8 +163,8 @@ TEST_CASE("a beam above or below points passes beside them, one at their height 
 }
 
 TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands above or below") {
-  // A roof 1 m above the sensor and 18 m ahead. A scan sees farther 0.5 m below it. What is below
-  // the roof, if anything, is so many metres lower.
+  // A roof 1 m above the sensor and 18 m ahead. A scan has farther returns 0.5 m below it. An
+  // object below the roof, if any, is this many metres lower.
   struct Below {
     std::vector<double> metres;
     bool is_beside_column;
@@ -206,8 +207,8 @@ TEST_CASE("a beam that passes a voxel's points is heard if it meets what stands 
 }
 
 TEST_CASE("a beam just below a roof that is seen from below is not heard") {
-  // A roof, 18 m ahead and as high above the sensor as `up`, and below it, if anything, what is
-  // so many metres lower. A scan sees farther, and passes the roof so much below it.
+  // A roof, 18 m ahead and `up` metres above the sensor; below it, perhaps, an object at a given
+  // distance. A scan has farther returns, which pass at a given distance below the roof.
   struct Roof {
     double passed_below, up, below;
     bool is_heard;
@@ -311,8 +312,8 @@ TEST_CASE("every voxel in range is asked of a scan, and decided on") {
 }
 
 TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") {
-  // Of scans 0 to 4 every second one is kept, and of these the last two: 2 and 4. Scan 0 would
-  // agree.
+  // Of scans 0 to 4, every second one is stored, and of these the last two: 2 and 4. Scan 0 would
+  // support the voxel.
   Parameters parameters;
   parameters.history_scans = 2;
   EarlierScans earlier(parameters);

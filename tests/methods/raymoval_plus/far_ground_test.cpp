@@ -20,7 +20,7 @@ std::size_t at(int x, int y, int side) {
   return static_cast<std::size_t>(y * side + x);
 }
 
-/// Ground of which a share is known: rough, on a slope, with things on it.
+/// Ground of which a share is known: rough, on a slope, with objects on it.
 std::vector<float> random_ground(int side, double known, std::mt19937& random) {
   std::uniform_real_distribution<float> zero_to_one(0.0F, 1.0F);
   std::vector<float> ground(static_cast<std::size_t>(side * side), kNowhere);
@@ -43,7 +43,7 @@ std::vector<float> bounded(const std::vector<float>& ground, int side) {
 }  // namespace
 
 TEST_CASE("what stands beyond a gap is bounded by the ground before it") {
-  // The ground is known up to column 10. A thing that is a metre high is found from 20 on.
+  // The ground is known up to column 10. An object of a metre height is found from column 20 on.
   const int side = 61;
   std::vector<float> ground(std::size_t{61} * 61, kNowhere);
   for (int y = 0; y < side; ++y) {

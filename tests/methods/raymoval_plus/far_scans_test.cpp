@@ -15,7 +15,7 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
-/// What one scan says of a voxel, and from how many metres away.
+/// The observation of a voxel by one scan, and its distance, metres.
 struct Said {
   Observation observation;
   float range;
@@ -30,7 +30,7 @@ int free_scans(const std::vector<Said>& story, const Parameters& parameters = {}
   return evidence.free_scans;
 }
 
-/// Step 4's rule, looked up in the whole story.
+/// The rule of step 4, computed from all observations.
 int free_scans_of_rule(const std::vector<Said>& story) {
   int agree = 0, heard = 0;
   std::size_t first = story.size(), last = 0;
@@ -57,21 +57,21 @@ int free_scans_of_rule(const std::vector<Said>& story) {
 
 TEST_CASE("who is far away is not heard of what others agree with near by") {
   using enum Observation;
-  // Ten scans agree, the nearest from 3 m: heard up to the octave that begins at 8 m, for the next
-  // begins at 16 m, and four times 3 m is 12 m.
+  // Ten scans support it, the nearest from 3 m: free scans count up to the octave that begins at 8
+  // m, because the next begins at 16 m, and four times 3 m is 12 m.
   std::vector<Said> story(10, {kAgree, 3.0F});
   story.front().range = 30.0F;
   for (const float range : {2.0F, 15.9F, 16.0F, 70.0F})
     story.insert(story.end() - 1, {kFree, range});
   CHECK(free_scans(story) == 2);
-  // Before the first and after the last scan that agrees, all are heard.
+  // Before the first and after the last supporting scan, all free scans count.
   story.insert(story.begin(), {kFree, 70.0F});
   story.push_back({kFree, 70.0F});
   CHECK(free_scans(story) == 4);
   // What was after is between when one more agrees.
   story.push_back({kAgree, 3.0F});
   CHECK(free_scans(story) == 3);
-  // Of what fewer agree with, and where nothing is settled, all are heard.
+  // With fewer supporting scans, and without settled voxels, all free scans count.
   Parameters parameters;
   for (const int settled : {0, 12}) {
     parameters.settled_scans = settled;

@@ -34,7 +34,7 @@ TEST_CASE("land rises as a plane does, whatever stands on it") {
   const std::vector<float> bare = ground_of(plane);
   CHECK(land_rise(bare, kLandSide, 0)[kAtMiddle] == Approx(0.2).margin(1e-4));
   CHECK(land_rise(bare, kLandSide, 1)[kAtMiddle] == Approx(-0.1).margin(1e-4));
-  // The edges of a low thing cancel out, and those of a house do not count.
+  // The edges of a low object cancel out, and the edges of a house do not count.
   for (const float high : {0.15F, 3.0F}) {
     const std::vector<float> with_box = ground_of([&](int x, int y) {
       const bool is_box = x >= 25 && x < 31 && y >= 27 && y < 38;
@@ -46,8 +46,8 @@ TEST_CASE("land rises as a plane does, whatever stands on it") {
 }
 
 TEST_CASE("land of which little is known is level") {
-  // Five columns in a row: one of them has ground two columns to either side. Of the 25 differences
-  // that it takes, 24 count as none.
+  // Five columns in a row: one of them has ground two columns to either side. Of its 25
+  // differences, 24 count as 0.
   const std::vector<float> ground = ground_of([](int x, int y) {
     const bool is_known = y == kMiddle && x >= kMiddle - 2 && x <= kMiddle + 2;
     return is_known ? 0.2F * static_cast<float>(x) : std::numeric_limits<float>::infinity();

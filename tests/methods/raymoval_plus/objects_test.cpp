@@ -19,8 +19,8 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
-/// A scan from the origin, whose points get the verdicts on their voxels that a test wants. The
-/// ground is at height 0.
+/// A scan from the origin with given verdicts on the voxels of its points. The ground is at height
+/// 0.
 class Scene {
  public:
   Parameters parameters;
@@ -111,8 +111,8 @@ TEST_CASE("a large group of dynamic points is spared in a static cluster") {
 }
 
 TEST_CASE("a person against a wall goes with all of its points") {
-  // One cluster: a wall of 400 points that 50 scans agree with, a person of 60 points 0.2 m before
-  // it. Two thirds of the person are dynamic, the rest three scans agree with.
+  // One cluster: a wall of 400 points with 50 supporting scans, a person of 60 points 0.2 m before
+  // it. Two thirds of the person are dynamic, the rest has three supporting scans.
   Scene scene;
   for (int i = 0; i < 40; ++i) {
     for (int k = 0; k < 10; ++k) {
@@ -126,15 +126,17 @@ TEST_CASE("a person against a wall goes with all of its points") {
   }
   CHECK(scene.dynamic(0, 400) == 0);
   CHECK(scene.dynamic(400, 460) == 60);
-  // Not divided, the person is a group in a wall: its dynamic points go, its feet stay.
+  // Not divided, the person is a group in a wall: its dynamic points are removed, its feet are
+  // kept.
   scene.parameters.settled_scans = 0;
   CHECK(scene.dynamic(0, 460) == 40);
 }
 
 TEST_CASE("what stands on a dynamic part goes with it, what stands beside it does not") {
-  // 25 dynamic points from 0.4 to 0.8 m and 40 points that 30 scans agree with: they are less than
-  // half, so that the cluster is mixed. Someone stopped near the sensor: scans saw through where
-  // his legs are before he came, and none ever looked to where his head is, from 0.9 m on.
+  // 25 dynamic points from 0.4 to 0.8 m and 40 points with 30 supporting scans: fewer than half are
+  // dynamic, so that the cluster is mixed. A person stopped near the sensor: scans observed the
+  // place of his legs as free before he came, and no scan observed the place of his head, from 0.9
+  // m on.
   const auto add_legs = [](Scene& scene) {
     for (int i = 0; i < 5; ++i) scene.add_column(3.1, 0.1 + 0.2 * i, 0.4, 5, Verdict::kDynamic);
   };
@@ -149,14 +151,13 @@ TEST_CASE("what stands on a dynamic part goes with it, what stands beside it doe
   add_legs(person);
   add_settled(person, 3.1, 0.9);
   CHECK(person.dynamic(0, 65) == 65);
-  // A wall right behind the legs stands on the ground: half of its points are lower than their
-  // mean.
+  // A wall right behind the legs is on the ground: half of its points are lower than their mean.
   Scene wall;
   add_legs(wall);
   add_settled(wall, 3.3, 0.4);
   CHECK(wall.dynamic(0, 25) == 25);
   CHECK(wall.dynamic(25, 65) == 0);
-  // What is as high as the head, but two voxels away from the legs, does not stand on them.
+  // Points at the height of the head, but two voxels away from the legs, are not above them.
   Scene hedge;
   hedge.parameters.cluster_gap = 0.6;
   add_legs(hedge);
@@ -166,7 +167,7 @@ TEST_CASE("what stands on a dynamic part goes with it, what stands beside it doe
 }
 
 TEST_CASE("tracks may follow what was divided as it was before, unless hardly any of it moves") {
-  // 25 dynamic points and a row that 30 scans agree with, right behind them and as high.
+  // 25 dynamic points and a row with 30 supporting scans, right behind them and as high.
   for (const int settled : {40, 400}) {
     Scene scene;
     for (int i = 0; i < 5; ++i) scene.add_column(3.1, 0.1 + 0.2 * i, 0.4, 5, Verdict::kDynamic);
@@ -188,7 +189,7 @@ TEST_CASE("tracks may follow what was divided as it was before, unless hardly an
     CHECK(undivided->low == objects[0].low.cwiseMin(objects[1].low));
     CHECK(undivided->high == objects[0].high.cwiseMax(objects[1].high));
     CHECK(undivided->agree_scans == 30.0F);
-    // What a track says of it is so for all of its points.
+    // The verdict of a track holds for all of its points.
     CHECK(scene.dynamic(0, 65, {undivided->cluster}) == 65);
     CHECK(scene.dynamic(0, 65, {objects[1].cluster}) == 25);
   }
@@ -197,7 +198,7 @@ TEST_CASE("tracks may follow what was divided as it was before, unless hardly an
 TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans agree with it") {
   Scene scene;
   scene.add_column(4.05, 3.05, 0.4, 4, Verdict::kDynamic);
-  scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // three scans agree
+  scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // three supporting scans
   scene.add_column(9.05, 3.05, 0.4, 3, Verdict::kDynamic);  // too few points
   for (std::size_t k = 4; k < 8; ++k) {
     scene.map.evidence(scene.scan.voxel[k]) = k < 6 ? VoxelEvidence{3, 3, 0, 0, 75'000, 75'008}
@@ -222,9 +223,9 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and how many scans 
 
 namespace {
 
-/// How many points of a pole go, of 12. Beside it, and one cluster with it, stands somebody of 20
+/// The number of removed points of a pole, of 12. Beside it, in the same cluster, is a person of 20
 /// dynamic points. It is scan 50.
-/// @param person what scans say of the voxel of his point k
+/// @param person evidence on the voxel of the person's point k
 int gone_of_pole(const std::function<VoxelEvidence(std::size_t)>& person, VoxelEvidence pole,
                  const std::vector<int>& marked = {}) {
   Scene scene;
@@ -241,32 +242,32 @@ int gone_of_pole(const std::function<VoxelEvidence(std::size_t)>& person, VoxelE
 }  // namespace
 
 TEST_CASE("a pole stays where somebody stands beside it") {
-  // Five scans agree with him, 40 to 60.
+  // Five scans support the person, 40 to 60.
   const auto pole_goes = [](VoxelEvidence pole, const std::vector<int>& marked = {}) {
     const auto person = [](std::size_t) { return VoxelEvidence{10, 5, 0, 0, 40, 60}; };
     const int gone = gone_of_pole(person, pole, marked);
     CHECK((gone == 0 || gone == 12));
     return gone == 12;
   };
-  // They are there together for 21 scans. Of the 20 scans before and after, all must agree.
+  // Both are there for 21 scans. All of the 20 scans before and after must support the pole.
   CHECK_FALSE(pole_goes({0, 41, 0, 0, 30, 70}));
   CHECK(pole_goes({0, 40, 0, 0, 30, 70}));
-  CHECK_FALSE(pole_goes({0, 41, 0, 0, 20, 60}));  // They may be all before, ...
+  CHECK_FALSE(pole_goes({0, 41, 0, 0, 20, 60}));  // All may be before, ...
   CHECK_FALSE(pole_goes({0, 41, 0, 0, 40, 80}));  // ... or all after.
-  CHECK(pole_goes({0, 21, 0, 0, 40, 60}));        // It came and left with him.
-  CHECK_FALSE(pole_goes({0, 30, 0, 0, 0, 29}));   // It left before he came.
-  // Of 130 scans before and after, 104 must agree.
+  CHECK(pole_goes({0, 21, 0, 0, 40, 60}));        // It came and left with the person.
+  CHECK_FALSE(pole_goes({0, 30, 0, 0, 0, 29}));   // It left before the person came.
+  // Of 130 scans before and after, 104 must support it.
   CHECK_FALSE(pole_goes({0, 125, 0, 0, 0, 150}));
   CHECK(pole_goes({0, 124, 0, 0, 0, 150}));
-  CHECK_FALSE(pole_goes({6, 125, 0, 0, 0, 150}));  // A twentieth of the scans may see through.
+  CHECK_FALSE(pole_goes({6, 125, 0, 0, 0, 150}));  // A twentieth of the scans may be free.
   CHECK(pole_goes({7, 125, 0, 0, 0, 150}));
-  CHECK(pole_goes({0, 41, 0, 0, 30, 70}, {0}));  // What a track marked goes as a whole.
+  CHECK(pole_goes({0, 41, 0, 0, 30, 70}, {0}));  // A marked cluster is removed as a whole.
 }
 
 TEST_CASE("a pole stays beside what was there for different times") {
   // Half of the person's points were there from scan 40 to 60, and half from 30 to 70: from 35 to
-  // 65 on average, and with a standard deviation of 5 before and after from 30 to 70. Of the twenty
-  // scans from 20 on and up to 80 that are not among these 41, all must agree.
+  // 65 on average, and with a standard deviation of 5 before and after from 30 to 70. All of the
+  // twenty scans from 20 to 80 that are not among these 41 must support the pole.
   const auto person = [](std::size_t k) {  // Two points that follow each other have one voxel.
     return k / 2 % 2 == 0 ? VoxelEvidence{10, 5, 0, 0, 30, 70} : VoxelEvidence{10, 5, 0, 0, 40, 60};
   };
@@ -275,8 +276,7 @@ TEST_CASE("a pole stays beside what was there for different times") {
 }
 
 TEST_CASE("points that nobody has seen before are of their own scan's time") {
-  // The dynamic points have no scan that agrees: scan 50 is all that is known of them. Twenty of
-  // the others must agree.
+  // The dynamic points have no supporting scan, only scan 50. The other points need twenty.
   const auto person = [](std::size_t) { return VoxelEvidence{10, 0, 0, 0, 0, 0}; };
   CHECK(gone_of_pole(person, {0, 21, 0, 0, 40, 60}) == 0);
   CHECK(gone_of_pole(person, {0, 20, 0, 0, 40, 60}) == 12);
@@ -300,8 +300,8 @@ TEST_CASE("what is too sparse for the sensor that saw it is not followed, all el
 }
 
 TEST_CASE("a fragment goes with what goes beside it") {
-  // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it 3 points that no scan saw
-  // through. The reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
+  // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it 3 points without free scans. The
+  // reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
   for (const double apart : {0.6, 0.86, 0.90}) {
     for (const int points : {3, 4}) {  // Four are an object of their own.
       for (const bool goes : {true, false}) {
@@ -313,7 +313,7 @@ TEST_CASE("a fragment goes with what goes beside it") {
         CHECK(scene.dynamic(0, 6) == (goes ? 6 : 0));
         CHECK(scene.dynamic(6, 6 + points) == (follows ? 3 : 0));
         if (goes) continue;
-        // A track marked the object: the fragment goes, and is remembered with it.
+        // A track marked the object: the fragment is removed and stored with it.
         const bool is_fragment = points == 3 && apart < 0.9;
         const SegmentedScan scan = scene.segmented();
         const int marked = scan.cluster_of[0];
@@ -354,7 +354,7 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
     for (int k = 0; k < 10; ++k) {  // In the column beside.
       scene.add({5.05, 0.25, 0.3 + 0.06 * k}, k < dynamic ? Verdict::kDynamic : Verdict::kStatic);
     }
-    // What is higher than 1 m and 0.03 of its range, 0.16 m, does not stand on these points.
+    // Points higher than 1 m and 0.03 of their range, 0.16 m, are not above these points.
     for (int k = 0; k < 100; ++k) scene.add({5.05, 0.05, 1.17 + 0.01 * k}, Verdict::kDynamic);
     const Verdicts decided = scene.with_low_points();
     const auto feet = std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic);
@@ -367,7 +367,7 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
 
 TEST_CASE("far away, low points follow what stands higher up and farther aside") {
   // 30 m away, 1.9 m are 1 m and 0.03 times the range. Beams 2 degrees apart are 1.05 m apart
-  // there, and 0.6 of that are three columns more than the one beside.
+  // there, and 0.6 of that are three more columns than the neighbouring column.
   struct Standing {
     double high, aside;
     bool is_followed;
@@ -391,8 +391,7 @@ TEST_CASE("far away, low points follow what stands higher up and farther aside")
 }
 
 TEST_CASE("a drop of rain near by takes no low points along, and what has two points does") {
-  // Two columns 0.0035 apart fit into 10 cm up to 14.3 m. Nothing is asked of what is farther than
-  // 80 m.
+  // Two columns 0.0035 apart fit into 10 cm up to 14.3 m. Points farther than 80 m are not checked.
   struct Above {
     double range;
     int points;
@@ -417,7 +416,7 @@ TEST_CASE("a drop of rain near by takes no low points along, and what has two po
 }
 
 TEST_CASE("a point above those of a foot is no drop") {
-  // 5 m away a point has to be within 0.117 m.
+  // 5 m away, a point must be within 0.117 m.
   for (const double foot : {0.25, 0.2}) {
     Scene scene;
     scene.maps.steps.azimuth = 0.0035F;
@@ -479,8 +478,8 @@ TEST_CASE("however far apart beams are, low points look no more than twenty colu
 }
 
 TEST_CASE("what is taken for ground follows what moves above it, if the ground is lower there") {
-  // A foot whose points are taken for ground, and a leg above it. A hundred points of earlier scans
-  // say that the ground is at `base`, which the terrain says is 0: a road, or a pavement beside it.
+  // A foot whose points are taken for ground, and a leg above it. By a hundred points of earlier
+  // scans the ground is at `base`, by the terrain at 0: a road, or a pavement beside it.
   for (const double base : {0.001, 0.051}) {
     for (const Verdict leg : {Verdict::kDynamic, Verdict::kStatic}) {
       for (const Verdict foot : {Verdict::kDynamic, Verdict::kStatic}) {
@@ -491,8 +490,8 @@ TEST_CASE("what is taken for ground follows what moves above it, if the ground i
         }
         scene.add_column(5.05, 0.25, 0.35, 6, leg);  // Beside it.
         Verdicts expected = scene.scan.verdict;
-        // The mean stays where it was, within 1 mm. What scans saw through stays dynamic, whatever
-        // stands above it.
+        // The mean is unchanged, within 1 mm. Points in voxels observed as free stay dynamic, with
+        // any points above them.
         if (leg == Verdict::kDynamic) expected[3] = Verdict::kDynamic;
         CHECK(scene.with_low_points() == expected);
       }
@@ -501,7 +500,7 @@ TEST_CASE("what is taken for ground follows what moves above it, if the ground i
 }
 
 TEST_CASE("what was no ground when it was seen follows what moves above it") {
-  for (const bool ground_evidence : {true, false}) {  // Without, the ground always stays.
+  for (const bool ground_evidence : {true, false}) {  // Without it, the ground is always kept.
     Scene scene;
     scene.parameters.ground_evidence = ground_evidence;
     scene.add({5.05, 0.05, 0.01}, Verdict::kStatic);
@@ -642,7 +641,7 @@ TEST_CASE("low points follow whatever they reach, whichever of it comes first") 
 
 TEST_CASE("the points of what a track may mark are remembered") {
   Scene scene;
-  scene.add_column(4.05, 3.05, 0.4, 6, Verdict::kStatic);   // points 0 to 5, few scans agree
+  scene.add_column(4.05, 3.05, 0.4, 6, Verdict::kStatic);   // points 0 to 5, few supporting scans
   scene.add_column(9.05, 3.05, 0.4, 6, Verdict::kDynamic);  // dynamic by itself
   scene.add_column(14.05, 3.05, 0.4, 5, Verdict::kStatic);  // points 12 to 16
   scene.add_column(4.25, 3.05, 0.4, 4, Verdict::kStatic);   // points 17 to 20, of the first
@@ -681,8 +680,9 @@ TEST_CASE("what is wider than track_width is not followed") {
 }
 
 TEST_CASE("a part with few dynamic points neither goes as a whole nor is marked for its track") {
-  // A wall of 400 points that 50 scans agree with. Before it are 29 or 30 points, of which 19 or 20
-  // are dynamic, and aside so many dynamic ones that more than a tenth of all are, but not half.
+  // A wall of 400 points with 50 supporting scans. Before it are 29 or 30 points, of which 19 or 20
+  // are dynamic. Aside are further dynamic points, so that more than a tenth of all are dynamic,
+  // but not half.
   for (const int dynamic : {19, 20}) {
     Scene scene;
     for (int y = -10; y < 10; ++y) {
@@ -706,8 +706,8 @@ TEST_CASE("a part with few dynamic points neither goes as a whole nor is marked 
 }
 
 TEST_CASE("the reason for a verdict is the step that made it") {
-  // Eight voxels, and three of the ground: whether it was seen through, what the vote, then the
-  // objects, then the low points made of it.
+  // Eight voxels, and three of the ground: whether it was observed as free, then the result of the
+  // vote, of the objects, and of the low points.
   struct Story {
     bool seen_through, voted, object, removed;
     const char* reason;

@@ -52,8 +52,8 @@ TEST_CASE("pits are found as by counting, on even, rough and sparse ground") {
 }
 
 TEST_CASE("a pit is dropped if more than three quarters of the columns around it are above it") {
-  // All 81 columns around the middle one have ground, which of 20 lies as low as that one: with it
-  // they are 21, one more than a quarter. One less, and the middle one is a pit.
+  // All 81 columns around the middle one have ground; in 20 it is as low as in the middle: with the
+  // middle these are 21, one more than a quarter. With one less, the middle one is a pit.
   constexpr int kSide = 9;
   std::vector<float> ground(kSide * kSide, 0.0F);
   const std::size_t middle = 40;

@@ -29,14 +29,14 @@ RangeImage image_of(std::vector<Eigen::Vector3f> points,
   return image;
 }
 
-/// The same sensor, of which it is known that it has beams.
+/// The same sensor with known beams.
 SensorModel sensor_with_beams() {
   SensorModel sensor = Scanner{}.model();
   sensor.beams = 41;
   return sensor;
 }
 
-/// The same sensor with beams up to so many degrees up and down.
+/// The same sensor with beams up to `degrees` up and down.
 SensorModel sensor_within(double degrees, double step = 0.5) {
   SensorModel sensor = Scanner{}.model();
   sensor.elevation_min = -degrees * kDegree;
@@ -45,7 +45,7 @@ SensorModel sensor_within(double degrees, double step = 0.5) {
   return sensor;
 }
 
-/// Every instruction set with every rule of what is seen through.
+/// Every instruction set with every rule for free observations.
 std::vector<std::pair<InstructionSet, SeenThrough>> sets_and_rules() {
   std::vector<std::pair<InstructionSet, SeenThrough>> all;
   for (const InstructionSet set : supported_instruction_sets()) {
@@ -151,16 +151,16 @@ TEST_CASE("what is above is so in the world, whichever way the sensor is turned"
 }
 
 TEST_CASE("a scan sees through a place beside what is nearer, in its own column of bins") {
-  // The place is in the middle of a bin, 20 m away. Somebody stands 10 m away in the column beside
-  // it. Without a gap, a return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from
-  // 1 m farther on.
+  // The place is in the middle of a bin, 20 m away. A person is 10 m away in the column beside it.
+  // Without a gap, a return is beyond from 20 + 0.25 + 0.005 * 20 = 20.35 m on; in a gap, from 1 m
+  // farther on.
   const SensorModel sensor = Scanner{}.model();
   const AroundBin bin{sensor.elevation_min + (8.0 + 0.5) * 0.25 * kDegree};
   const auto told = [&](const std::vector<Eigen::Vector3f>& points) {
     return image_of(points, sensor).observe(bin.at(20.0, 0.0, 0.0));
   };
   const Eigen::Vector3f beside = bin.at(10.0, 1.0, 0.0);
-  CHECK(told({beside}) == Observation::kOccluded);  // No beam goes on beyond.
+  CHECK(told({beside}) == Observation::kOccluded);  // No beam continues beyond.
   CHECK(told({beside, bin.at(21.3, 0.0, 0.0)}) == Observation::kOccluded);
   CHECK(told({beside, bin.at(21.4, 0.0, 0.0)}) == Observation::kFree);
   CHECK(told({bin.at(21.3, 0.0, 0.0)}) == Observation::kFree);  // The whole window is clear.
@@ -186,7 +186,8 @@ TEST_CASE("a gap above the horizon reaches two rows up, and one row down") {
   const Pose upright = Pose::Identity();
   CHECK(told(-2.0, upright) == Observation::kFree);
   CHECK(told(2.0, upright) == Observation::kOccluded);
-  // Up is up in the world: a sensor that hangs upside down sees the same place below the horizon.
+  // Up is up in the world: for a sensor that hangs upside down, the same place is below the
+  // horizon.
   const Pose hanging(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
   CHECK(told(-2.0, hanging) == Observation::kOccluded);
   CHECK(told(2.0, hanging) == Observation::kFree);
@@ -203,20 +204,21 @@ TEST_CASE("a place on a slope that beams graze is not seen through beside it") {
   const Eigen::Vector3f first = bin.at(18.0, 0.0, -2.0), second = bin.at(22.5, 0.0, 0.0),
                         third = bin.at(30.0, 0.0, 2.0);
   CHECK(told(20.5, {first, second, third}) == Observation::kOccluded);
-  // Above the slope by more than a row, or with two returns only, it is seen beside what hides it.
+  // Above the slope by more than a row, or with two returns only, it is visible beside the
+  // occluder.
   CHECK(told(19.0, {first, second, third}) == Observation::kFree);
   CHECK(told(20.5, {first, second}) == Observation::kFree);
   // The third return may lie before the others: 15 m are 1/90 more than 18 m.
   CHECK(told(20.5, {bin.at(15.0, 0.0, -4.0), first, second}) == Observation::kOccluded);
-  // Somebody who stands before the slope: 1/range falls by five times as much as behind him.
+  // A person before the slope: 1/range falls by five times as much as behind the person.
   CHECK(told(20.5, {bin.at(10.0, 0.0, -2.0), second, third}) == Observation::kFree);
   CHECK(told(20.5, {bin.at(14.0, 0.0, -2.0), second, third}) == Observation::kOccluded);
 }
 
 TEST_CASE("few beams see through what they meet and pass, though lower ones end before it") {
-  // Beams 2 degrees apart, in the middles of rows of 1 degree, look down on a road 1.7 m below:
-  // those at 5 and 3 degrees meet it 19.5 and 32.5 m away. What the upper one meets 26 m away is
-  // 0.34 m above the road, and the lower one is in its window.
+  // Beams 2 degrees apart, in the middles of rows of 1 degree, hit a road 1.7 m below: the beams at
+  // 5 and 3 degrees hit it 19.5 and 32.5 m away. A hit of the upper beam 26 m away is 0.34 m above
+  // the road, and the lower beam is in its window.
   const SensorModel sensor = sensor_within(15.5, 2.0);
   const auto at = [](double range, double elevation) -> Eigen::Vector3f {
     return (range * direction(0.0, elevation * kDegree)).cast<float>();
@@ -236,8 +238,8 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
   // The beam is 1.7 m - 30.4 m * sin(3 degrees) = 0.11 m above the road, and 0.09 m at 30.8 m.
   CHECK(told(at(30.4, -3.0), {road, at(32.5, -3.0)}) == Observation::kFree);
   CHECK(told(at(30.8, -3.0), {road, at(32.5, -3.0)}) == Observation::kOccluded);
-  // What the lower beam meets beyond the place is no surface that goes on to it. Somebody hides
-  // the place who stands in the next column.
+  // The hit of the lower beam beyond the place is no surface that extends to it. A person in the
+  // next column occludes the place.
   const Eigen::Vector3f beside = (10.0 * direction(0.725 * kDegree, -3.0 * kDegree)).cast<float>();
   CHECK(told(at(26.0, -3.0), {beside, at(26.8, -5.0), at(32.5, -3.0)}) == Observation::kFree);
   // The beam may pass 0.02 m above the place: 0.044 degrees at 26 m.
@@ -255,8 +257,8 @@ TEST_CASE("few beams see through what they meet and pass, though lower ones end 
 }
 
 TEST_CASE("a place above the highest beam is not seen through") {
-  // A ceiling 3 m above the sensor, whose highest beam looks up by 15 degrees: the nearest return
-  // lies 11.2 m ahead, and the ceiling before it is within the window of that beam.
+  // A ceiling 3 m above the sensor, whose highest beam is at 15 degrees: the nearest return is 11.2
+  // m ahead, and the ceiling before it is within the window of that beam.
   const SensorModel sensor = sensor_within(15.0, 2.0);
   const auto ceiling = [](double elevation) -> Eigen::Vector3f {
     return (3.0 / std::sin(elevation * kDegree) * direction(0.0, elevation * kDegree))
@@ -265,9 +267,9 @@ TEST_CASE("a place above the highest beam is not seen through") {
   const RangeImage image = image_of({ceiling(14.9), ceiling(13.0)}, sensor);
   CHECK(image.observe(ceiling(14.9)) == Observation::kAgree);
   CHECK(image.observe(ceiling(16.5)) == Observation::kUnknown);
-  // What stands lower is seen through: the same beam passes it.
+  // A lower object is observed as free: the same beam passes it.
   CHECK(image.observe(Eigen::Vector3f(0.6F * ceiling(14.9))) == Observation::kFree);
-  // What is near the sensor has a larger window, and is told alike.
+  // A place near the sensor has a larger window and the same result.
   const Eigen::Vector3f above = (2.2 * direction(0.0, 16.5 * kDegree)).cast<float>();
   CHECK(image.observe(above) == Observation::kUnknown);
   std::vector<ObservedPlace> observed;
@@ -320,8 +322,8 @@ TEST_CASE("places are observed alike one by one, all at once, and by every instr
 }
 
 TEST_CASE("places near the sensor, with large windows, are observed as bin by bin") {
-  // A room with a pillar, a gap in the wall and no returns from above: whole windows agree, hide,
-  // are seen through and are empty, and others are of two kinds.
+  // A room with a pillar, a gap in the wall and no returns from above: some whole windows support,
+  // occlude, are free or are empty, and others are mixed.
   std::mt19937 random(9);
   std::uniform_real_distribution<float> angle(-3.2F, 3.2F), slope(-0.45F, 0.15F), any(0.0F, 1.0F);
   const auto somewhere = [&](float steeper, const auto& range_at) {
@@ -384,7 +386,7 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
     return image.observe(turn.inverse().cast<float>() * foot, rule);
   };
   CHECK(seen({}) == Observation::kFree);
-  // What was taken for ground is still asked about all of the window.
+  // For ground, the whole window is still used.
   CHECK(seen({}, SeenThrough::kAtOrBelow) == Observation::kAgree);
   // The foot itself, 4 cm higher or lower, and 10 cm farther or nearer.
   for (const double up : {-0.04, 0.04}) {
@@ -394,11 +396,11 @@ TEST_CASE("seen from above, the ground before a foot says nothing of the foot") 
       CHECK(seen({point}) == Observation::kAgree);
     }
   }
-  // Somebody half a metre before it hides it at whatever height he is hit.
+  // A person half a metre before it occludes it, at any height of the hit.
   const Eigen::Vector3f before = (2.3 * direction(0.0, elevation - 1.5 * kDegree)).cast<float>();
   CHECK(seen({before}) == Observation::kOccluded);
-  // Where the ground is met, beams that pass lower or higher do not see through it, though they
-  // go on.
+  // If the ground is hit, beams that pass lower or higher are no free observations of it, though
+  // they continue.
   const auto passing = [&](double up) {
     const Eigen::Vector3f met = (2.85 * direction(0.0, elevation - 0.03)).cast<float>();
     const Eigen::Vector3f beyond = (6.0 * direction(0.0, elevation + up / range)).cast<float>();
@@ -422,11 +424,11 @@ TEST_CASE("a sensor has even beams if they are known, or its steps differ") {
   CHECK(has_even_beams(sensor));
   sensor.beams = 0;
   sensor.azimuth_step *= 0.5;
-  CHECK_FALSE(has_even_beams(sensor));  // It was estimated, and none were found.
+  CHECK_FALSE(has_even_beams(sensor));  // It was estimated without beams.
   for (const std::string& name : sensor_model_names()) {
     CHECK(has_even_beams(sensor_model_named(name)));
   }
-  CHECK_FALSE(has_even_beams(SensorModel{}));  // Nothing is known of it.
+  CHECK_FALSE(has_even_beams(SensorModel{}));  // A model without values.
 }
 
 TEST_CASE("the bins of places are those of atan2 and asin, but for places on their borders",

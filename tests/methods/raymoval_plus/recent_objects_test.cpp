@@ -12,8 +12,8 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
-/// A post of 20 points, 1.9 m high and 0.2 m wide, that drives off by 1.5 m a scan, at 15 m/s.
-/// Nothing is known of where it stands; it is seen later that nothing is left where it stood.
+/// A post of 20 points, 1.9 m high and 0.2 m wide, that drives off by 1.5 m per scan, at 15 m/s.
+/// Its places are unknown at first; later scans observe the places that it left as free.
 class DrivingPost {
  public:
   explicit DrivingPost(int recent_scans = 30, const DirectionSteps& steps = {})
@@ -34,7 +34,7 @@ class DrivingPost {
     add_post(scan);
     take(scan);
   }
-  /// Later scans saw through the place of a scan's post.
+  /// Later scans observed the place of a scan's post as free.
   void leave(std::size_t scan) {
     for (const std::uint32_t voxel : voxels_[scan]) {
       EvidenceMap::Blocks::Cursor cursor;
@@ -42,7 +42,7 @@ class DrivingPost {
       map.set_verdict_in(map.find_slot(map.index(voxel), cursor), Verdict::kDynamic);
     }
   }
-  /// The clusters of a scan that are marked, by what is known now.
+  /// The marked clusters of a scan, by the present evidence.
   [[nodiscard]] std::vector<int> marked(std::size_t scan) {
     recent_.judge(in_map_.map, RunContext{});
     return recent_.marked(scan, RunContext{});
@@ -55,7 +55,7 @@ class DrivingPost {
   }
 
  private:
-  /// Adds a point of which nothing is known, and returns its voxel.
+  /// Adds a point without evidence, and returns its voxel.
   std::uint32_t add(const Eigen::Vector3d& point, SegmentedScan& scan) {
     const std::uint32_t voxel = in_map_.add(point);
     in_map_.map.evidence(voxel).agree_scans = 1;
@@ -126,7 +126,7 @@ TEST_CASE("what left three places behind later is known to have moved before") {
 }
 
 TEST_CASE("the clusters of a scan that is taken again replace those that it had") {
-  // The post is cluster 0, and cluster 1 where there is a pole, which stays.
+  // The post is cluster 0, or cluster 1 if there is a pole, which is kept.
   DrivingPost post;
   for (int i = 0; i < 5; ++i) post.scan();
   for (const std::size_t i : {0U, 1U, 2U}) post.leave(i);
@@ -151,7 +151,7 @@ TEST_CASE("what was judged last holds for objects that are no longer recent") {
       if (i >= 2) some->leave(i - 2);
     }
     CHECK_FALSE(late.is_marked(i));        // Forgotten before it left anything.
-    CHECK(post.is_marked(i) == (i >= 4));  // Its track goes back to the first place.
+    CHECK(post.is_marked(i) == (i >= 4));  // Its track reaches the first place.
   }
 }
 

@@ -67,17 +67,17 @@ TEST_CASE("under a roof the ground rises no more than the slope allows") {
       for (int k = 0; k < 3; ++k) points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0 : 2);
     }
   }
-  const Terrain terrain = terrain_of(points, 0.0);  // Only what is near has a say.
+  const Terrain terrain = terrain_of(points, 0.0);  // Only near points count.
   CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
   // 0.4 m and 1.2 m beyond the last column of ground it may rise by 0.08 m and 0.24 m; farther away
-  // that column says nothing.
+  // that column is not used.
   CHECK(height_of(terrain, {4.2, 0.2, 2.0}) == Approx(1.92).margin(0.05));
   CHECK(height_of(terrain, {5.0, 0.2, 2.0}) == Approx(1.76).margin(0.05));
   CHECK(height_of(terrain, {5.4, 0.2, 2.0}) == Approx(0.0).margin(0.05));
 }
 
 TEST_CASE("what stands between rings of ground is no ground") {
-  // Returns of the ground end at x = 4 m. The next are those of a thing from 8 m on, 0.8 m high.
+  // Returns of the ground end at x = 4 m. The next are of an object from 8 m on, 0.8 m high.
   std::vector<Eigen::Vector3d> points;
   for (int x = 0; x < 25; ++x) {
     if (x >= 10 && x < 20) continue;
@@ -98,8 +98,7 @@ TEST_CASE("what stands between rings of ground is no ground") {
 
 TEST_CASE(
     "on steep land heights are those above a plane, and things stand on it as on level land") {
-  // A box of 2 x 2 m, of which nothing lower than half a metre is seen, on land that rises in some
-  // direction.
+  // A box of 2 x 2 m with returns only above half a metre, on land that rises in some direction.
   const auto is_box = [](double x, double y) { return std::abs(x) < 1.0 && std::abs(y) < 1.0; };
   for (const double far_slope : {0.1, 0.0}) {
     for (const auto& [slope_x, slope_y] :
@@ -128,7 +127,7 @@ TEST_CASE(
 }
 
 TEST_CASE("ground found scan by scan is the ground found at once") {
-  // Each scan sees all of it, or a strip of which the next one sees a part.
+  // Each scan covers all of it, or a strip that overlaps with the next scan's.
   const double width = GENERATE(120.0, 24.0);
   const double step = (120.0 - width) / 4.0;
   std::mt19937 random(7);

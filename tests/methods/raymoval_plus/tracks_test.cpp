@@ -11,7 +11,7 @@ namespace {
 
 using Scans = std::vector<std::vector<ObjectSummary>>;
 
-/// A walker of half a metre who moves 0.2 m a scan along x; `dynamic` of 20 points are dynamic.
+/// A walker of half a metre that moves 0.2 m per scan along x; `dynamic` of 20 points are dynamic.
 ObjectSummary walker(int scan, int dynamic, float agree_scans) {
   ObjectSummary object;
   object.center = {0.2 * scan, 0.0, 1.0};
@@ -37,7 +37,7 @@ std::vector<std::vector<int>> marked_by_tracks(const Scans& scans, double period
   return objects_on_tracks(timed(scans, period), Parameters{}, RunContext{});
 }
 
-/// What the tracks of one that goes forward mark in the last scan.
+/// The clusters that forward tracks mark in the last scan.
 std::vector<int> marked_in_last(const Scans& scans, ObjectTracker tracker, double period = 0.1) {
   const Scans at_times = timed(scans, period);
   for (std::size_t i = 0; i < scans.size(); ++i) tracker.follow(i, at_times[i]);
@@ -55,7 +55,7 @@ void make_van(ObjectSummary& object) {
 TEST_CASE("an object is followed past its last evidence, a standing one is not") {
   Scans scans;
   for (int i = 0; i < 10; ++i) {
-    // Nothing was seen after the last three scans, so their voxels are not found free.
+    // There are no scans after the last three, so their voxels are not observed as free.
     scans.push_back({walker(i, i < 7 ? 18 : 0, 4.0), walker(0, 0, 10.0)});
     scans.back()[1].center.y() += 5.0;
   }
@@ -67,14 +67,15 @@ TEST_CASE("an object is followed past its last evidence, a standing one is not")
   ObjectTracker tracker{Parameters{}};
   for (std::size_t i = 0; i < 8; ++i) tracker.follow(i, scans[i]);
   CHECK(marked_in(7, tracker.finish(), Parameters{}) == std::vector{0});
-  // Scans agree on it for far longer than half a metre at 0.2 m a scan explains: something else.
+  // Scans support it for far longer than half a metre at 0.2 m per scan explains: another object.
   for (auto& objects : scans) objects[0].agree_scans = 60.0F;
   CHECK(marked_by_tracks(scans)[9].empty());
 }
 
 TEST_CASE("track_slack says how long scans may agree with what moves on") {
-  // 0.71 m of length, twice 0.25 m within which returns agree, and a voxel of 0.2 m pass in 7.04
-  // scans at 0.2 m each. 2.2 times as many and two are 17.5 scans, 2.3 times as many 18.2.
+  // 0.71 m of length, twice the tolerance of 0.25 m of supporting returns, and a voxel of 0.2 m
+  // pass in 7.04 scans at 0.2 m each. 2.2 times as many and two are 17.5 scans, 2.3 times as
+  // many 18.2.
   for (const double slack : {2.2, 2.3}) {
     Parameters parameters;
     parameters.track_slack = slack;
@@ -108,8 +109,8 @@ TEST_CASE("a track may miss two scans, and not three") {
 }
 
 TEST_CASE("what waits before it leaves, or comes and stays, is one thing with what moved") {
-  // The walker stands for 40 scans, in which nothing is seen through it, and walks for 10. In the
-  // other order of time it comes and stays.
+  // The walker is stationary for 40 scans, in which it is never observed as free, and walks for 10.
+  // In the reverse order of time it comes and stays.
   for (const bool comes : {false, true}) {
     for (const float agree_scans : {40.0F, 90.0F}) {
       Scans scans;
@@ -118,8 +119,8 @@ TEST_CASE("what waits before it leaves, or comes and stays, is one thing with wh
         const bool stands = time < 40;
         scans.push_back({walker(stands ? 0 : time - 39, stands ? 0 : 18, agree_scans)});
       }
-      // Scans agree with its place for as long as it was followed there. If they agree for more
-      // than twice as long, it is something else that the track ran into.
+      // Scans support its place for as long as the track was there. If they support it for more
+      // than twice as long, the track ran into another object.
       const auto marked = marked_by_tracks(scans);
       const auto of_standing = agree_scans < 50.0F ? std::vector{0} : std::vector<int>{};
       for (std::size_t i = 0; i < 50; ++i) {
@@ -132,9 +133,10 @@ TEST_CASE("what waits before it leaves, or comes and stays, is one thing with wh
 
 TEST_CASE(
     "a pole stays whose track somebody who passes takes over, or whom it takes over from him") {
-  // It is followed for 40 scans, and then he walks on from there for ten. Or, in the other order of
-  // time, he comes there, and it is followed on. Scans agree with it up to `beyond` scans after
-  // that it should have left, or from as many before it should have come.
+  // A cluster is tracked for 40 scans, and then the walker moves on from there for ten. Or, in the
+  // reverse order of time, the walker comes there, and the cluster is tracked on. Scans support the
+  // place up to `beyond` scans after the walker should have left, or from as many before it should
+  // have come.
   const auto is_marked = [](bool comes, float agree_scans, float free_scans, double beyond) {
     Scans scans;
     for (int i = 0; i < 50; ++i) {
@@ -148,12 +150,13 @@ TEST_CASE(
     CHECK(marked[20] == marked[25]);
     return marked[25] == std::vector{0};
   };
-  // He walks 0.2 m a scan and is 0.71 m wide, so that he is still in its place for three scans.
+  // The walker moves 0.2 m per scan and is 0.71 m wide, so it is still at the place for three
+  // scans.
   for (const bool comes : {false, true}) {
-    CHECK(is_marked(comes, 60.0F, 0.0F, 13.0));  // That may be how far scans agree around him.
+    CHECK(is_marked(comes, 60.0F, 0.0F, 13.0));  // Scans may support the place around the walker.
     CHECK_FALSE(is_marked(comes, 60.0F, 0.0F, 14.0));
     CHECK_FALSE(is_marked(comes, 60.0F, 3.0F, 20.0));
-    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));  // Seen through more: others came there.
+    CHECK(is_marked(comes, 60.0F, 3.5F, 20.0));  // More free scans: others came there.
     // Five scans more than the 43 in which it is followed there are a quarter of the other 17.
     CHECK_FALSE(is_marked(comes, 48.0F, 0.0F, 20.0));
     CHECK(is_marked(comes, 47.0F, 0.0F, 20.0));
@@ -161,9 +164,9 @@ TEST_CASE(
 }
 
 TEST_CASE("a pole stays before which somebody came or left for some scans") {
-  // Nothing moves: it is dynamic in four of ten scans. Scans agree some scans before or after, or
-  // both. If it is dynamic until the last scan of its track, none should agree long after that; if
-  // it is so in the first scans only, it may have come to stay.
+  // A stationary cluster that is dynamic in four of ten scans. It is supported some scans before or
+  // after, or both. If it is dynamic until the last scan of its track, no scan should support it
+  // long after that; if it is dynamic in the first scans only, it may have come to stay.
   const auto is_marked = [](int every, double before, double after) {
     Scans scans;
     for (int i = 0; i < 10; ++i) {
@@ -177,7 +180,7 @@ TEST_CASE("a pole stays before which somebody came or left for some scans") {
   for (const int every : {1, 3}) {
     CHECK(is_marked(every, 10.0, 10.0));
     CHECK_FALSE(is_marked(every, 11.0, 11.0));
-    CHECK(is_marked(every, 20.0, 10.0));  // Who stands was there before his track began anew.
+    CHECK(is_marked(every, 20.0, 10.0));  // It was there before its new track began.
     CHECK_FALSE(is_marked(every, 21.0, 10.0));
     CHECK_FALSE(is_marked(every, 21.0, 0.0));
     CHECK(is_marked(every, 10.0, 20.0));
@@ -188,7 +191,7 @@ TEST_CASE("a pole stays before which somebody came or left for some scans") {
 }
 
 TEST_CASE("what waits is in its place however much of it is in sight") {
-  // A van waits for 40 scans. At first 2.8 m of it are in sight, then less and less behind its
+  // A van waits for 40 scans. At first 2.8 m of it are visible, then less and less behind its
   // front, until that is 0.4 m deep; then it drives off. Its centre shifts by 1.2 m meanwhile.
   for (const float agree_scans : {60.0F, 95.0F}) {
     Scans scans;
@@ -215,8 +218,8 @@ TEST_CASE("what waits is in its place however much of it is in sight") {
 }
 
 TEST_CASE("a parked car stays whose track something much smaller takes over") {
-  // A walker of 0.71 m comes in ten scans; what stands for 40 scans from then on is 1.56 or 1.92 m
-  // wide. Half as wide again and 0.6 m are 1.66 m.
+  // A walker of 0.71 m comes in ten scans; the object that is stationary for the next 40 scans is
+  // 1.56 or 1.92 m wide. 1.5 times 0.71 m and 0.6 m are 1.66 m.
   for (const bool is_larger : {false, true}) {
     Scans scans;
     for (int i = 0; i < 50; ++i) {
@@ -238,8 +241,8 @@ TEST_CASE("a parked car stays whose track something much smaller takes over") {
 }
 
 TEST_CASE("what stands is one thing in all scans if in enough of them it came or leaves") {
-  // Who stands for ten scans is dynamic in the first three or two of them; later only his upper
-  // half is in view, through which no scan ever saw.
+  // A person who is stationary for ten scans is dynamic in the first three or two of them; later
+  // only the upper half is in view, which no scan observed as free.
   for (const int dynamic : {2, 3}) {
     for (const float agree_scans : {22.0F, 23.0F}) {
       Scans scans;
@@ -248,7 +251,7 @@ TEST_CASE("what stands is one thing in all scans if in enough of them it came or
         if (i >= dynamic) scans.back()[0].low.z() += 0.7;
       }
       const auto marked = marked_by_tracks(scans);
-      // 22 scans are twice as many as he was followed, and two more.
+      // 22 scans are twice the length of the track, and two more.
       const bool is_one = dynamic == 3 && agree_scans == 22.0F;
       for (std::size_t i = 3; i < 10; ++i) {
         CHECK(marked[i] == (is_one ? std::vector{0} : std::vector<int>{}));
@@ -280,7 +283,7 @@ TEST_CASE("an object that did not move, or changed its size, marks nothing") {
 }
 
 TEST_CASE("a fast object is followed from its first step on if that is allowed") {
-  // A van of 4 m drives 1.5 m a scan, which no slow thing does between two scans.
+  // A van of 4 m drives 1.5 m per scan, farther than any slow object.
   Scans scans;
   for (int i = 0; i < 8; ++i) {
     scans.push_back({walker(0, i < 5 ? 18 : 0, 1.0)});
@@ -299,14 +302,14 @@ TEST_CASE("a fast object is followed from its first step on if that is allowed")
   // Twice or half as many scans a second: the speed counts, not the step.
   CHECK(last_marked(14.0, 0.2) == std::vector{0});
   CHECK(last_marked(28.0, 0.05).empty());
-  // What scans agree with for long stood there before, and is no fast thing.
+  // A place with long support was occupied before, so it is no fast object.
   for (std::size_t i = 1; i < 8; ++i) scans[i][0].agree_scans = 20.0F;
   CHECK(last_marked(40.0).empty());
 }
 
 TEST_CASE("a slow object is followed though a long first step leads to another one") {
-  // A walker is hidden in the second scan, where somebody stands 2 m ahead. Only three scans see
-  // through his place, so that all of them must be of his track.
+  // A walker is occluded in the second scan, in which a person is stationary 2 m ahead. Only three
+  // scans observe his place as free, so that all of them must be of his track.
   Scans scans;
   for (int i = 0; i < 10; ++i) {
     const bool is_dynamic = i == 0 || i == 2 || i == 3;
@@ -318,9 +321,9 @@ TEST_CASE("a slow object is followed though a long first step leads to another o
 }
 
 TEST_CASE("what brakes between scans half a second apart is followed") {
-  // A van drives 2 m a scan along x, and stands from the fifth scan on, where nothing was seen
-  // through. It is expected 2 m ahead then, which is less than 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m,
-  // but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
+  // A van drives 2 m per scan along x, and is stationary from the fifth scan on at a place that was
+  // never observed as free. It is expected 2 m ahead then, which is less than
+  // 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m, but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
   for (const double period : {0.1, 0.5}) {
     Scans scans;
     for (int i = 0; i < 8; ++i) {
@@ -334,8 +337,9 @@ TEST_CASE("what brakes between scans half a second apart is followed") {
 }
 
 TEST_CASE("an object is followed though a wide gate leads to another one") {
-  // A walker is hidden in the fourth scan, where somebody stands 1.5 m beside where he should be.
-  // With a wide gate alone his track would go to the other one, and he would stay.
+  // A walker is occluded in the fourth scan, in which a stationary person is 1.5 m beside his
+  // expected place. With a wide gate alone, his track would take the other person, and the walker
+  // would be kept.
   Scans scans;
   for (int i = 0; i < 10; ++i) {
     scans.push_back({walker(i, i < 3 ? 18 : 0, i == 3 ? 1.0 : 4.0)});
@@ -350,8 +354,8 @@ TEST_CASE("an object is followed though a wide gate leads to another one") {
 }
 
 TEST_CASE("what waits is followed though others pass before it for some scans") {
-  // A walker stands for 20 scans, is hidden in some of them, and walks for 7, in which he is
-  // dynamic.
+  // A walker is stationary for 20 scans, is occluded in some of them, and walks for 7, in which he
+  // is dynamic.
   for (const int hidden : {10, 11}) {
     Scans scans(27);
     for (int i = 0; i < 27; ++i) {
@@ -365,8 +369,8 @@ TEST_CASE("what waits is followed though others pass before it for some scans") 
 }
 
 TEST_CASE("what is divided in some scans is followed as it was before") {
-  // A van of 4 m stands for 8 scans and drives off by 0.6 m a scan. In its first three scans its
-  // rear is where it stood, and is divided from its front.
+  // A van of 4 m is stationary for 8 scans and drives off by 0.6 m per scan. In its first three
+  // scans its rear is still at its first place, and is divided from its front.
   const auto van = [](int scan, int dynamic) {
     ObjectSummary object = walker(3 * std::max(scan - 7, 0), dynamic, scan < 11 ? 6.0F : 2.0F);
     make_van(object);
@@ -403,8 +407,8 @@ TEST_CASE("what is divided in some scans is followed as it was before") {
 }
 
 TEST_CASE("scans agree with what passes for as long as others stood there, if these go") {
-  // A walker passes the place where a van stands from scan 20 to 45. It drives off then, or stays.
-  // While he is there, his own rays do not say that he moves.
+  // A walker passes the place where a van is stationary from scan 20 to 45. Then the van drives
+  // off, or stays. While the walker is at that place, his points are not dynamic.
   for (const bool leaves : {false, true}) {
     Scans scans;
     for (int i = 0; i < 55; ++i) {

@@ -69,8 +69,8 @@ TEST_CASE("raymoval_plus online-lag knows the scans up to its delay, and none af
 }
 
 TEST_CASE("raymoval_plus online-lag measures heights above the ground that was seen meanwhile") {
-  // While the box stands, rays meet the ground 1.5 m before it and no nearer, so that its lowest
-  // row is the lowest thing there. Then the sensor comes nearer.
+  // While the box is stationary, rays hit the ground 1.5 m before it and no nearer, so that its
+  // lowest row is the lowest there. Then the sensor comes nearer.
   const Box ground{{-20, -40, -2.5}, {120, 40, -1.5}}, box{{30.3, -1.5, -1.0}, {32, 1.5, 0.6}},
       wall{{45, -40, -1.5}, {46, 40, 8}};
   World world(Scanner{});
@@ -87,8 +87,8 @@ TEST_CASE("raymoval_plus online-lag measures heights above the ground that was s
 }
 
 TEST_CASE("what was taken for ground goes if scans see through it, and the road stays") {
-  // Rays meet the ground 1.5 m before the box and beyond it, never where it stands, so that its
-  // lowest row is the lowest thing there.
+  // Rays hit the ground 1.5 m before the box and beyond it, never below it, so that its lowest row
+  // is the lowest there.
   const Box ground{{-20, -40, -2.5}, {120, 40, -1.5}}, box{{30.3, -1.5, -1.0}, {32, 1.5, 0.6}},
       wall{{45, -40, -1.5}, {46, 40, 8}};
   World world(Scanner{});

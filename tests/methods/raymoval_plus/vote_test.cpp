@@ -19,7 +19,7 @@ class Row {
  public:
   EvidenceMap& map = points_.map;
 
-  /// @param agree_scans scans that agree with it
+  /// @param agree_scans number of supporting scans
   std::uint32_t add(int cell, Verdict decision, int agree_scans = 0) {
     const auto voxel = points_.add(middle(cell));
     map.set_decision(voxel, decision);
@@ -35,8 +35,8 @@ class Row {
 }  // namespace
 
 TEST_CASE("a pole that scans always agreed with stays in a crowd") {
-  // Static voxels at cell 0, dynamic ones at the two on either side of each: 4 of 5 votes. The
-  // crowd stands there for as long as the pole was seen.
+  // Static voxels at cell 0, dynamic voxels at the two on either side of each: 4 of 5 votes. The
+  // crowd is there for as long as the pole was observed.
   const Parameters parameters;
   struct Pole {
     int agree_scans, free_scans;
@@ -56,8 +56,8 @@ TEST_CASE("a pole that scans always agreed with stays in a crowd") {
 }
 
 TEST_CASE("who passes a parked car does not outvote it") {
-  // Two dynamic voxels on either side, with which 2, 3, 7 and 8 scans agree, 5 on average. Eight
-  // times as many are 40. A few scans saw through the car, so that it was not always there.
+  // Two dynamic voxels on either side, with 2, 3, 7 and 8 supporting scans, 5 on average. Eight
+  // times as many are 40. A few scans observed the car's place as free, so it was not always there.
   struct Car {
     int agree_scans;
     double outlast;
@@ -81,7 +81,7 @@ TEST_CASE("who passes a parked car does not outvote it") {
 }
 
 TEST_CASE("what beams only passed beside is not outvoted by what passes it a few times") {
-  // Two dynamic voxels on either side, with which 20 scans agree each. Three times as many are 60,
+  // Two dynamic voxels on either side, with 20 supporting scans each. Three times as many are 60,
   // eight times 160. A twentieth of 60 or 61 scans is three.
   struct Pole {
     int agree_scans, free_scans, leading_free, trailing_free;

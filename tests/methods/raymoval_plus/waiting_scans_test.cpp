@@ -11,8 +11,8 @@ using namespace raymoval::raymoval_plus_method;
 
 namespace {
 
-/// The number of the scan that comes while each scan is answered, that scan itself included or not:
-/// scans below it are known. Scans come at `times`; those left at the end know all.
+/// For each scan, the number of scans that are known when it is answered. Scans come at `times`;
+/// scans that are answered at the end know all.
 std::vector<std::size_t> known_scans(double delay, const std::vector<double>& times) {
   WaitingScans waiting(delay);
   std::vector<std::size_t> known;
@@ -39,7 +39,7 @@ TEST_CASE("without a delay each scan is answered from itself and those before") 
 }
 
 TEST_CASE("with a delay each scan knows those that came by then") {
-  // 0 knows the scans up to 0.2 s, 1 those up to 0.3 s; what is left knows all.
+  // Scan 0 uses the scans up to 0.2 s, scan 1 up to 0.3 s; the rest uses all.
   CHECK(known_scans(0.2, {0.0, 0.1, 0.2, 0.3}) == std::vector<std::size_t>{3, 4, 4, 4});
   // Ten tenths are a second, however they round.
   std::vector<double> tenths;

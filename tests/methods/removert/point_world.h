@@ -30,7 +30,7 @@ inline Eigen::Vector3f polar(double range, double elevation, double azimuth = 0.
   return (range * direction(azimuth * kDegree, elevation * kDegree)).cast<float>();
 }
 
-/// Straight ahead or to the left, but for a tenth of a degree that keeps off the pixels' borders.
+/// Straight ahead or to the left, plus a tenth of a degree to avoid the pixels' borders.
 inline Eigen::Vector3f ahead(double range) {
   return polar(range, 0.1, 0.05);
 }

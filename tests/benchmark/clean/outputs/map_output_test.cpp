@@ -161,7 +161,7 @@ TEST_CASE("Rows of tiles wait in files where there are more than memory is given
   for (const char* name : {"tile_0_0.pcd", "tile_1_0.pcd", "tile_2_0.pcd"}) {
     CHECK(column(read_records(path / name), "ring") == std::vector<double>{0, 1, 2, 3, 4});
   }
-  CHECK(entries_of(path).size() == 4);  // With the manifest, and without what waited.
+  CHECK(entries_of(path).size() == 4);  // With the manifest, and without temporary files.
 }
 
 TEST_CASE("Maps of LAS scans keep their scale and reference system") {
