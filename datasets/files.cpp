@@ -124,7 +124,7 @@ PosePlaceFound find_poses(const fs::path& folder, const SequenceSettings& settin
                           std::vector<fs::path>& input_files) {
   PosePlaceFound found;
   found.settings = pose_settings(settings, folder, input_files);
-  if (settings.poses == kStandingSensor) return found;
+  if (settings.poses == kStationarySensor) return found;
   found.file = find_pose_file(folder, settings.poses);
   input_files.push_back(*found.file);
   return found;
@@ -147,7 +147,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   const ScanKeys keys =
       keys_of_files(chosen.files, files, times, settings.scan_period_s.value_or(kUsualScanPeriod));
   ScanPoses poses =
-      file ? scan_poses(*file, keys, place.settings) : standing_poses(keys, place.settings);
+      file ? scan_poses(*file, keys, place.settings) : stationary_poses(keys, place.settings);
   if (settings.skip_bad_scans) {
     drop_bad_files(chosen.files, {settings.point_layout}, context, poses.poses, poses.losses);
   }
@@ -165,7 +165,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
   sequence.notes = std::move(notes);
   add_poses(poses, sequence);
   sequence.input_files.insert(sequence.input_files.end(), input_files.begin(), input_files.end());
-  sequence.poses_file = file ? file->path.filename().string() : kStandingSensor;
+  sequence.poses_file = file ? file->path.filename().string() : kStationarySensor;
   add_label_files(folder / "labels", entries, sequence);
   FileScanSource::Traits traits;
   traits.point_frame = settings.points.value_or(PointFrame::kSensor);

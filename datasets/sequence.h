@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -104,6 +106,9 @@ struct Sequence {
   /// Calibration "Tr" if the pose file has poses of a camera; the scans' poses contain it.
   std::optional<Pose> T_camera_lidar = std::nullopt;
   std::optional<Pose> T_body_sensor = std::nullopt;  ///< Of `T_sensor`, applied to the poses.
+  /// Names and positions of frames that are fixed to the frame of the points, metres: the tf of a
+  /// recording. Reads them at each call. Null: the data has none.
+  std::function<std::map<std::string, Eigen::Vector3d>()> fixed_frames = nullptr;
   /// The up direction in the world of the poses. Null: the world's z axis.
   std::shared_ptr<const UpChoice> up_choice = nullptr;
 

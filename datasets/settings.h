@@ -76,7 +76,7 @@ SequenceSettings apply_options(const SequenceOptions& options, SequenceSettings 
 inline constexpr double kUsualScanPeriod = 0.1;
 
 /// Used in place of a pose file for a stationary sensor.
-inline constexpr const char* kStandingSensor = "identity";
+inline constexpr const char* kStationarySensor = "identity";
 
 /// The pose file `name`: a file in `folder`, else a path.
 /// @param name poses.txt if empty

@@ -71,7 +71,7 @@ class ScanVisitor {
   virtual ~ScanVisitor() = default;
   /// True if the next pass needs much memory and should run last. Visitors without this have their
   /// passes first. Then each of the others has all of its passes in turn.
-  [[nodiscard]] virtual bool waits_for_others() const { return false; }
+  [[nodiscard]] virtual bool runs_last() const { return false; }
   /// Prepares the next pass.
   /// @param slots how many scans may be in work at a time
   /// @return false if no further pass is needed

@@ -39,7 +39,7 @@ class OrderedPass {
         if (input_.cancel != nullptr && input_.cancel->load()) throw Cancelled();
         read_(scan, scan % ready_.size());
         if (input_.progress != nullptr) input_.progress->advance();
-        take_what_is_ready(scan);
+        process_ready(scan);
       } catch (...) {
         keep_error(scan);
       }
@@ -56,7 +56,7 @@ class OrderedPass {
   }
 
   /// Takes the scans that are next, unless another worker is doing so.
-  void take_what_is_ready(std::size_t read_scan) {
+  void process_ready(std::size_t read_scan) {
     Lock lock(mutex_);
     ready_[read_scan % ready_.size()] = 1;
     if (is_taking_) return;
@@ -107,7 +107,7 @@ std::vector<ScanVisitor*> begin_next_pass(std::vector<ScanVisitor*>& visitors, s
     return !needs_pass;
   };
   std::erase_if(visitors, [&](ScanVisitor* visitor) {
-    return !visitor->waits_for_others() && needs_no_pass(visitor);
+    return !visitor->runs_last() && needs_no_pass(visitor);
   });
   while (shown.empty() && !visitors.empty()) {
     if (needs_no_pass(visitors.front())) visitors.erase(visitors.begin());

@@ -13,7 +13,6 @@
 #include "benchmark/result/removals/removal_files.h"
 #include "core/error.h"
 #include "core/scan/local_frame.h"
-#include "core/text.h"
 
 namespace raymoval {
 namespace {
@@ -86,16 +85,14 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   if (!paths.labels.empty()) outputs_.push_back(std::make_unique<LabelFolder>(paths.labels));
   if (plan) {
     has_own_poses_ = plan->own_poses;
-    auto scans = std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan));
-    scans_ = scans.get();
-    outputs_.push_back(std::move(scans));
+    outputs_.push_back(std::make_unique<ScanFolder>(paths.scans, sequence, std::move(*plan)));
   }
   add_views(paths, writing);
 }
 
 void CleanOutputs::note_losses(const OutputPath& output, const std::string& name,
                                const RecordLayout& layout) {
-  for (const std::string& lost : what_is_lost(name, layout)) {
+  for (const std::string& lost : format_losses(name, layout)) {
     notes_.push_back(output.option + ": " + lost);
   }
 }
@@ -181,11 +178,6 @@ std::vector<std::string> CleanOutputs::results() const {
     const std::vector<std::string> remarks = output->remarks();
     results.insert(results.end(), remarks.begin(), remarks.end());
   }
-  if (scans_ == nullptr || scans_->empty_scans().empty()) return results;
-  const std::vector<std::string>& empty = scans_->empty_scans();
-  results.push_back("No point is left of " + counted_text(empty.size(), "scan") + " (" +
-                    empty.front() + (empty.size() > 1 ? ", ..." : "") +
-                    "), which some programs cannot read.");
   return results;
 }
 

@@ -68,7 +68,6 @@ class CleanOutputs {
   bool has_confidence_ = false;
   std::vector<std::unique_ptr<CleanOutput>> outputs_;
   const CleanOutput* first_map_ = nullptr;
-  const class ScanFolder* scans_ = nullptr;
   bool has_own_poses_ = false;
   std::vector<std::string> notes_;
 };

@@ -25,7 +25,7 @@ fs::path plain(const fs::path& path) {
   std::error_code error;
   fs::path whole = fs::absolute(path, error);
   if (!error) whole = fs::weakly_canonical(whole, error);
-  if (error) throw_cannot_look_at(path, error.value());
+  if (error) throw_inaccessible(path, error.value());
   return without_slash(whole);
 }
 

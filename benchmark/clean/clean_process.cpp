@@ -26,19 +26,19 @@ std::set<fs::path> unfinished(const CleanPaths& paths) {
 }
 
 /// Removes the unfinished files of a child process that was ended.
-class LeftOvers {
+class UnfinishedOutputs {
  public:
-  explicit LeftOvers(const CleanPaths& paths)
+  explicit UnfinishedOutputs(const CleanPaths& paths)
       : paths_(paths), before_(unfinished(paths)), had_(present()) {}
-  ~LeftOvers() {
+  ~UnfinishedOutputs() {
     try {
       remove();
     } catch (const std::exception&) {
       // An unfinished file that cannot be found now remains; its name marks it as unfinished.
     }
   }
-  LeftOvers(const LeftOvers&) = delete;
-  LeftOvers& operator=(const LeftOvers&) = delete;
+  UnfinishedOutputs(const UnfinishedOutputs&) = delete;
+  UnfinishedOutputs& operator=(const UnfinishedOutputs&) = delete;
 
  private:
   void remove() const {
@@ -64,12 +64,12 @@ class LeftOvers {
 
 }  // namespace
 
-ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,
-                     double memory_limit_mib, const std::atomic<bool>& cancel) {
+ExitCode clean_in_child(const std::vector<std::string>& arguments, const CleanPaths& paths,
+                        double memory_limit_mib, const std::atomic<bool>& cancel) {
   const fs::path first = paths.all().front().path;
   const auto before = identity_of(first);
-  const LeftOvers left_overs(paths);
-  const ExitCode answer = run_command_apart(
+  const UnfinishedOutputs left_overs(paths);
+  const ExitCode answer = run_command_in_child(
       arguments,
       {.doing = "cleaning",
        .outcome = " Nothing was written.",

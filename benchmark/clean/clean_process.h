@@ -17,7 +17,7 @@ namespace raymoval {
 /// @param cancel ends the child when it becomes true
 /// @return the exit code of the child, which has printed the reason itself
 /// @throws DataError if it was ended for its memory, MethodError if it crashed, Cancelled
-ExitCode clean_apart(const std::vector<std::string>& arguments, const CleanPaths& paths,
-                     double memory_limit_mib, const std::atomic<bool>& cancel);
+ExitCode clean_in_child(const std::vector<std::string>& arguments, const CleanPaths& paths,
+                        double memory_limit_mib, const std::atomic<bool>& cancel);
 
 }  // namespace raymoval

@@ -90,9 +90,9 @@ std::string RangeShares::table() const {
   return text;
 }
 
-std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
-                                     const std::string& path, const std::string& method,
-                                     const std::vector<Finding>& warned, bool is_seen) {
+std::vector<std::string> remedies(std::uint64_t removed, std::uint64_t points,
+                                  const std::string& path, const std::string& method,
+                                  const std::vector<Finding>& warned, bool is_seen) {
   std::vector<std::string> advice;
   if (!warned.empty()) {
     std::vector<std::string> names;

@@ -46,8 +46,8 @@ class RangeShares {
 /// Suggestions, in sentences, for a map that does not look right.
 /// @param warned findings about the data that did not stop the cleaning
 /// @param is_seen whether there is already a picture or a page of the map
-std::vector<std::string> what_to_try(std::uint64_t removed, std::uint64_t points,
-                                     const std::string& path, const std::string& method,
-                                     const std::vector<Finding>& warned, bool is_seen);
+std::vector<std::string> remedies(std::uint64_t removed, std::uint64_t points,
+                                  const std::string& path, const std::string& method,
+                                  const std::vector<Finding>& warned, bool is_seen);
 
 }  // namespace raymoval

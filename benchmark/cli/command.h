@@ -118,7 +118,7 @@ struct OutputFlag {
 };
 
 /// Prints how a sequence was opened, unless progress is quiet. Always warns of scans that are lost.
-void tell_opening(const Sequence& sequence, Progress& progress);
+void report_opening(const Sequence& sequence, Progress& progress);
 
 /// Set to true by the first Ctrl-C, SIGTERM or SIGHUP; a second one ends the program at once. The
 /// exit code is then 128 + the number of the signal, unless the work was already complete.

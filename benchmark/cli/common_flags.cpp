@@ -83,7 +83,7 @@ void OutputFlag::write(const std::string& content) const {
   if (!path.empty()) write_atomically(output_target(path), content);
 }
 
-void tell_opening(const Sequence& sequence, Progress& progress) {
+void report_opening(const Sequence& sequence, Progress& progress) {
   progress.end();  // The messages get lines of their own.
   for (const std::string& line : sequence.notes) progress.say(sequence.name + ": " + line);
   for (const std::string& line : lost_scan_lines(sequence)) {

@@ -31,7 +31,7 @@ bool means_sequence(const SuiteFlags& flags) {
 }
 
 /// A hint for naming a folder or scene that has the name of a suite; empty if there is none.
-std::string if_a_folder_is_meant(const std::string& suite) {
+std::string folder_hint(const std::string& suite) {
   if (!is_folder(suite) || suite.find('/') != std::string::npos) return "";
   return " If the folder of that name is meant, write ./" + suite + ".";
 }
@@ -46,7 +46,7 @@ void check_suite_alone(const SuiteFlags& flags) {
   if (given.empty()) return;
   throw UsageError(given + " cannot be given together with the suite " + flags.suite +
                    "; write it into a suite file, or leave the suite out." +
-                   if_a_folder_is_meant(flags.suite));
+                   folder_hint(flags.suite));
 }
 
 /// Adds the methods of the command line. A method that is named and also part of "all" is added

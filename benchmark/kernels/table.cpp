@@ -39,7 +39,7 @@ struct Timed {
 };
 
 /// Whether a record represents all repetitions: their median, a single repetition, or a failure.
-bool stands_for_all(const Json& run) {
+bool is_summary(const Json& run) {
   if (run.value("error_occurred", false)) return run.value("repetition_index", 0) == 0;
   if (run.value("run_type", "") == "aggregate") return run.at("aggregate_name") == "median";
   return run.value("repetitions", 1) <= 1;
@@ -71,7 +71,7 @@ std::vector<Timed> read_all(const std::vector<std::string>& json_files) {
   for (const std::string& path : json_files) {
     try {
       for (const Json& run : Json::parse(read_text(path)).at("benchmarks")) {
-        if (stands_for_all(run)) all.push_back(timed_of(run));
+        if (is_summary(run)) all.push_back(timed_of(run));
       }
     } catch (const Json::exception& error) {
       throw DataError(

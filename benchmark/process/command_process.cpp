@@ -50,8 +50,8 @@ ExitCode answer_of(const ChildEnd& end, const CommandWords& words, double limit_
 
 }  // namespace
 
-ExitCode run_command_apart(const std::vector<std::string>& arguments, const CommandWords& words,
-                           double memory_limit_mib, const std::atomic<bool>& cancel) {
+ExitCode run_command_in_child(const std::vector<std::string>& arguments, const CommandWords& words,
+                              double memory_limit_mib, const std::atomic<bool>& cancel) {
   ChildSetup setup;
   setup.arguments = {"raymoval"};
   setup.arguments.insert(setup.arguments.end(), arguments.begin(), arguments.end());

@@ -23,7 +23,7 @@ struct CommandWords {
 /// @param cancel ends the child when it becomes true
 /// @return the exit code of the child, which has printed the reason itself
 /// @throws DataError if it was ended for its memory, MethodError if it crashed, Cancelled
-ExitCode run_command_apart(const std::vector<std::string>& arguments, const CommandWords& words,
-                           double memory_limit_mib, const std::atomic<bool>& cancel);
+ExitCode run_command_in_child(const std::vector<std::string>& arguments, const CommandWords& words,
+                              double memory_limit_mib, const std::atomic<bool>& cancel);
 
 }  // namespace raymoval

@@ -90,7 +90,7 @@ struct Tidy {
 
 }  // namespace
 
-MethodAnswer run_method_apart(const MethodTask& task) {
+MethodAnswer run_method_in_child(const MethodTask& task) {
   const Descriptor order_file = memory_file("order");
   const Descriptor answer_file = memory_file("answer");
   write_order(order_file.get(), task);

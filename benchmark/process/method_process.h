@@ -12,9 +12,9 @@ inline constexpr const char* kMethodCommand = "run-method";
 /// hangs or leaks, the answer has a status, a reason and the end of the method's output.
 /// @param task with a place
 /// @throws Cancelled; DataError if no process can be started
-MethodAnswer run_method_apart(const MethodTask& task);
+MethodAnswer run_method_in_child(const MethodTask& task);
 
-/// The child's side: reads the order from the descriptors of `run_method_apart`, and writes the
+/// The child's side: reads the order from the descriptors of `run_method_in_child`, and writes the
 /// answer to them. @throws UsageError if there are no such descriptors, because a user typed the
 /// command
 void serve_method(const MethodRegistry& registry);

@@ -36,7 +36,7 @@ bool holds_numbers(const TextTable& table, std::size_t place) {
 }
 
 /// How the cells of a column look.
-struct ColumnLook {
+struct ColumnStyle {
   bool number = false, start = false;  ///< It holds numbers; it begins a group.
 
   [[nodiscard]] std::string classes(bool with_lines) const {
@@ -48,8 +48,8 @@ struct ColumnLook {
   }
 };
 
-std::vector<ColumnLook> column_looks(const TextTable& table) {
-  std::vector<ColumnLook> looks;
+std::vector<ColumnStyle> column_styles(const TextTable& table) {
+  std::vector<ColumnStyle> looks;
   for (const TableGroup& group : table.groups) {
     for (std::size_t i = 0; i < group.columns.size(); ++i) {
       looks.push_back({holds_numbers(table, looks.size()), i == 0});
@@ -58,7 +58,7 @@ std::vector<ColumnLook> column_looks(const TextTable& table) {
   return looks;
 }
 
-std::string head_html(const TextTable& table, const std::vector<ColumnLook>& looks) {
+std::string head_html(const TextTable& table, const std::vector<ColumnStyle>& looks) {
   const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
                                    [](const TableGroup& group) { return !group.heading.empty(); });
   const std::string corner = html_text(table.corner);
@@ -99,7 +99,7 @@ std::string heat_of(const TableCell& cell) {
   return " style=\"--share:" + fixed_text(share, 2) + "\"";
 }
 
-std::string rows_html(const TextTable& table, const std::vector<ColumnLook>& looks,
+std::string rows_html(const TextTable& table, const std::vector<ColumnStyle>& looks,
                       const RowRange& range, bool summary, bool heat) {
   const bool lines = table.groups.size() > 1;
   std::string html;
@@ -118,7 +118,7 @@ std::string rows_html(const TextTable& table, const std::vector<ColumnLook>& loo
 }
 
 /// A <tbody> for each block. If a block has a name, the first row of its <tbody> shows it.
-std::string bodies_html(const TextTable& table, const std::vector<ColumnLook>& looks, bool heat) {
+std::string bodies_html(const TextTable& table, const std::vector<ColumnStyle>& looks, bool heat) {
   std::string html;
   for (const RowRange& block : blocks_of(table)) {
     const std::string& heading = table.rows[block.first].block;
@@ -134,7 +134,7 @@ std::string bodies_html(const TextTable& table, const std::vector<ColumnLook>& l
 }
 
 std::string whole_table(const TextTable& table, TableHeight height, bool heat) {
-  const std::vector<ColumnLook> looks = column_looks(table);
+  const std::vector<ColumnStyle> looks = column_styles(table);
   const std::string foot = rows_html(table, looks, {0, table.rows.size()}, true, heat);
   std::string html = fmt::format(
       "<div class=\"scroll{0}\" tabindex=\"0\" role=\"region\" aria-label=\"{1}\">\n"

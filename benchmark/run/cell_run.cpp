@@ -108,7 +108,7 @@ MethodAnswer answer_of_control(ScoredSequence& scored, KnownAnswer known) {
 MethodAnswer answer_of_method(ScoredSequence& scored, const MethodTask& task) {
   if (task.place == nullptr) return run_method(task);
   const auto known = known_answer(task.request->method.entry->name);
-  return known ? answer_of_control(scored, *known) : run_method_apart(task);
+  return known ? answer_of_control(scored, *known) : run_method_in_child(task);
 }
 
 /// The difference of an external method, whose files may change at any time, from the cell's key;

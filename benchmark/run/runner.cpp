@@ -38,7 +38,7 @@ ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& fo
 }
 
 /// A file system without locks is used too; then the user must prevent parallel runs.
-void say_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
+void warn_if_unlocked(const OpenedSuite& suite, const FolderLock& lock) {
   if (lock.is_held()) return;
   suite.say("warning: the file system of " + suite.options().out.string() +
             " has no locks, so another run could write there at the same time. Start none before "
@@ -63,7 +63,7 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   OpenedSuite opened(suite, options);
   prepare_run_folder(options.out);
   const FolderLock lock(options.out / kLockFile, FolderLock::Mode::kExclusive);
-  say_if_unlocked(opened, lock);
+  warn_if_unlocked(opened, lock);
   sweep_run_folder(options.out);
   JoinedFolder folder = join_folder(opened);
   opened.store().sweep();
@@ -92,7 +92,7 @@ RunSummary run_one_cell(const Suite& suite, const RunOptions& options, const std
   JoinedFolder joined = join_folder(opened);
   make_folder(folder);
   const FolderLock cell_lock(folder / kLockFile, FolderLock::Mode::kExclusive);
-  say_if_unlocked(opened, cell_lock);
+  warn_if_unlocked(opened, cell_lock);
   SequenceRuns runs(opened, joined);
   work_in_folder(options.out, [&] { runs.run(index.sequence); });
   return runs.summary();

@@ -194,6 +194,8 @@ void SequenceRuns::describe(std::size_t number) {
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) suite_.say(sequence.name + ": " + turned);
   for (const std::string& line : left_out_lines(sequence)) suite_.say(sequence.name + ": " + line);
+  const std::string empty = empty_scans_line(sequence);
+  if (!empty.empty()) suite_.say(sequence.name + ": " + empty);
 }
 
 bool SequenceRuns::may_run(CellIndex index) const {

@@ -21,12 +21,12 @@ void check_no_link_to_nothing(const fs::path& path) {
   for (fs::path at = without_slash(path); !at.empty(); at = at.parent_path()) {
     struct stat status {};
     if (::lstat(at.c_str(), &status) != 0) {
-      if (!means_absent(errno)) throw_cannot_look_at(at, errno);
+      if (!means_absent(errno)) throw_inaccessible(at, errno);
       if (at == at.parent_path()) return;
       continue;
     }
     if (!S_ISLNK(status.st_mode) || ::stat(at.c_str(), &status) == 0) return;
-    if (!means_absent(errno)) throw_cannot_look_at(at, errno);
+    if (!means_absent(errno)) throw_inaccessible(at, errno);
     std::error_code ignored;
     throw DataError(at.string() + ": is a link to " + fs::read_symlink(at, ignored).string() +
                     ", which is not there. Fetch the data (such as `git annex get` or `dvc pull`), "
@@ -42,7 +42,7 @@ const char* special_name(mode_t mode) {
 
 }  // namespace
 
-void throw_cannot_look_at(const fs::path& path, int reason) {
+void throw_inaccessible(const fs::path& path, int reason) {
   throw UnreadableError(
       path.string() + ": cannot be accessed (" + std::generic_category().message(reason) +
       "). Check the rights of the folders above it, and that its disk or share is reachable.");
@@ -55,7 +55,7 @@ bool means_absent(int reason) {
 FileKind file_kind(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    if (!means_absent(errno)) throw_cannot_look_at(path, errno);
+    if (!means_absent(errno)) throw_inaccessible(path, errno);
     check_no_link_to_nothing(path);
     return FileKind::kAbsent;
   }
@@ -93,7 +93,7 @@ std::uintmax_t plain_file_size(const fs::path& path) {
   if (!has_file(path)) throw DataError(path.string() + ": there is no such file.");
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw_cannot_look_at(path, error.value());
+  if (error) throw_inaccessible(path, error.value());
   return size;
 }
 
@@ -116,7 +116,7 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder)) {
     struct stat status {};
     if (::stat(entry.c_str(), &status) != 0) {
-      if (!means_absent(errno)) throw_cannot_look_at(entry, errno);
+      if (!means_absent(errno)) throw_inaccessible(entry, errno);
     } else if (S_ISDIR(status.st_mode)) {
       folders.push_back(entry);
     }
@@ -144,14 +144,14 @@ void remove_if_there(const fs::path& path) {
 bool is_link(const fs::path& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) == 0) return S_ISLNK(status.st_mode);
-  if (!means_absent(errno)) throw_cannot_look_at(path, errno);
+  if (!means_absent(errno)) throw_inaccessible(path, errno);
   return false;
 }
 
 std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) return std::pair{status.st_dev, status.st_ino};
-  if (!means_absent(errno)) throw_cannot_look_at(path, errno);
+  if (!means_absent(errno)) throw_inaccessible(path, errno);
   return std::nullopt;
 }
 

@@ -27,7 +27,7 @@ class UnreadableError : public DataError {
 };
 
 /// @param reason the system's error number
-[[noreturn]] void throw_cannot_look_at(const std::filesystem::path& path, int reason);
+[[noreturn]] void throw_inaccessible(const std::filesystem::path& path, int reason);
 
 /// Whether the system's error number means that nothing of a name exists.
 bool means_absent(int reason);

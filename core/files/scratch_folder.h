@@ -8,7 +8,7 @@
 namespace raymoval {
 
 /// What a temporary folder is for: the beginning of its name.
-inline constexpr const char* kRecordingFolder = "raymoval-recording";  ///< Unpacked recordings.
+inline constexpr const char* kRecordingFolder = "raymoval-recording";  ///< Decompressed recordings.
 inline constexpr const char* kMethodFolder = "raymoval-external";      ///< External methods.
 
 /// The folder for temporary files: TMPDIR, or /tmp if that is not set.

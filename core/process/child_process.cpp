@@ -17,11 +17,11 @@
 #include <system_error>
 
 #include "core/process/family_memory.h"
-#include "core/process/foster_parent.h"
 #include "core/process/output_tail.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/process/start_child.h"
+#include "core/process/subreaper_scope.h"
 
 namespace raymoval {
 namespace {
@@ -61,7 +61,7 @@ double folder_size_mib(const std::filesystem::path& folder, const std::vector<pi
 /// Watches a running child until it ends or must be ended.
 class ChildWatch {
  public:
-  ChildWatch(const ChildSetup& setup, StartedChild child, const FosterParent& foster)
+  ChildWatch(const ChildSetup& setup, StartedChild child, const SubreaperScope& foster)
       : setup_(setup),
         child_(child.process),
         family_(child.process, child.mark, &foster),
@@ -173,7 +173,7 @@ class ChildWatch {
 }  // namespace
 
 ChildEnd run_child(const ChildSetup& setup) {
-  FosterParent foster;
+  SubreaperScope foster;
   StartedChild child = start_child(setup, foster.score());
   if (child.process >= 0) {
     foster.set_head(child.process);

@@ -66,7 +66,7 @@ struct ChildEnd {
 /// not limited by RLIMIT_AS or RLIMIT_DATA, which count what is mapped and never touched (thread
 /// stacks, arenas, a sanitizer's shadow). The working folder is measured about once a second.
 ///
-/// Until this returns, this process is the foster parent of its descendants (see `FosterParent`).
+/// Until this returns, this process is the foster parent of its descendants (see `SubreaperScope`).
 /// It waits for its child and that child's descendants only, so that this may be called beside
 /// other children and in several threads.
 ChildEnd run_child(const ChildSetup& setup);

@@ -82,7 +82,7 @@ ProcessFamily::Members ProcessFamily::found_members() const {
     if (is_member(process)) add_with_descendants(process, found);
   }
   if (foster_ != nullptr) {
-    for (const pid_t child : foster_->foster_children()) add_with_descendants(child, found);
+    for (const pid_t child : foster_->adopted_children()) add_with_descendants(child, found);
   }
   Members members;
   for (const pid_t process : found) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/process/foster_parent.h"
+#include "core/process/subreaper_scope.h"
 
 namespace raymoval {
 
@@ -27,7 +27,7 @@ class ProcessFamily {
   /// @param head which has not been waited for, so that its number is not used again
   /// @param mark part of the variable `kFamilyVariable` of all members
   /// @param foster this process's; null if the head is this process
-  ProcessFamily(pid_t head, std::string mark, const FosterParent* foster)
+  ProcessFamily(pid_t head, std::string mark, const SubreaperScope* foster)
       : head_(head), mark_(std::move(mark)), foster_(foster) {}
 
   /// The head and its descendants.
@@ -52,7 +52,7 @@ class ProcessFamily {
 
   pid_t head_;
   std::string mark_;
-  const FosterParent* foster_;
+  const SubreaperScope* foster_;
 };
 
 /// Whether `run_child` has started this process as a child of a process that still runs.

@@ -75,7 +75,7 @@ class PartnerShares {
     for (std::size_t bin = 0; bin + 2 < kBins && distance(bin) <= kWidestStep; ++bin) {
       if (counts_[bin] < std::max(kOfBest * best, kLeastShare * samples_)) continue;
       if (counts_[bin] < counts_[bin + 1] || counts_[bin] < counts_[bin + 2]) continue;
-      if (stands_out(bin)) return distance(middle_of_peak(bin));
+      if (is_isolated_peak(bin)) return distance(middle_of_peak(bin));
     }
     return 0.0;
   }
@@ -117,7 +117,7 @@ class PartnerShares {
   }
 
   /// Whether few directions have a partner at half as much again and at somewhat less than `bin`.
-  [[nodiscard]] bool stands_out(std::size_t bin) const {
+  [[nodiscard]] bool is_isolated_peak(std::size_t bin) const {
     constexpr double kBetween = 0.55;
     const auto mean = [&](double from, double to) {
       const int first = bin_of(from * distance(bin)), last = bin_of(to * distance(bin));

@@ -26,7 +26,7 @@ double quantile_of(std::vector<double>& angles, double quantile) {
 
 /// The middle of the widest arc in which there is next to nothing, radians; pi if none is wide
 /// enough to be a limit of the sensor.
-double cut_of(const std::vector<double>& azimuths) {
+double azimuth_gap(const std::vector<double>& azimuths) {
   constexpr int kArcs = 720, kLeastArcs = 20;  // A wide gap has at least 10 degrees.
   constexpr double kNothing = 0.01;            // Of the mean number of points in an arc.
   std::array<double, kArcs> counts = {};
@@ -71,7 +71,7 @@ struct Seen {
 };
 
 void set_azimuths(std::vector<double>& azimuths, SensorModel& model) {
-  const double cut = cut_of(azimuths);
+  const double cut = azimuth_gap(azimuths);
   for (double& azimuth : azimuths) {
     azimuth -= cut;
     azimuth -= kTurn * std::floor(azimuth / kTurn);

@@ -192,11 +192,11 @@ BagMotion find_bag_motion(const Bag& bag, const BagPoseQuery& query) {
     const bool enough = topic.type == kPath || topic.messages * 20 >= query.scans;
     return has_poses(topic.type) && !is_tf(topic.type) && enough;
   };
-  const TopicWish named{kPoseOption, "with poses",
-                        [](const BagTopic& topic) { return has_poses(topic.type); }};
-  const TopicWish odometry{kPoseOption, "with odometry",
-                           [](const BagTopic& topic) { return topic.type == kOdometry; }};
-  const TopicWish poses{kPoseOption, "with poses", is_usual};
+  const TopicRequest named{kPoseOption, "with poses",
+                           [](const BagTopic& topic) { return has_poses(topic.type); }};
+  const TopicRequest odometry{kPoseOption, "with odometry",
+                              [](const BagTopic& topic) { return topic.type == kOdometry; }};
+  const TopicRequest poses{kPoseOption, "with poses", is_usual};
   std::optional<std::size_t> topic;
   if (query.pose_topic) {
     topic = choose_topic(bag, query.pose_topic, named);

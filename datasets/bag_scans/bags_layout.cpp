@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "core/text.h"
 #include "datasets/bag_scans/bag_motion.h"
 #include "datasets/bag_scans/bag_source.h"
+#include "datasets/bag_scans/frame_tree.h"
 #include "datasets/bag_scans/indexed_labels.h"
 #include "datasets/bag_scans/topics.h"
 #include "datasets/bags/bag.h"
@@ -162,8 +164,8 @@ SequenceSettings settings_of(const fs::path& path, const SequenceOptions& option
 }
 
 std::size_t scan_topic(const Bag& bag, const std::optional<std::string>& named) {
-  const TopicWish wish{"--topic", "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)",
-                       [](const BagTopic& topic) { return has_points(topic.type); }};
+  const TopicRequest wish{"--topic", "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)",
+                          [](const BagTopic& topic) { return has_points(topic.type); }};
   if (const auto topic = choose_topic(bag, named, wish)) return *topic;
   throw UsageError(bag.path().string() +
                    ": no topic has scans, which are of type "
@@ -205,9 +207,9 @@ FoundScanPoses poses_of_file(const ScanHeads& heads, const BagTopic& topic,
   }
   FoundScanPoses found;
   found.point_frame = settings.points.value_or(PointFrame::kSensor);
-  found.name = kStandingSensor;
-  if (settings.poses == kStandingSensor) {
-    found.poses = standing_poses(keys, pose_settings);
+  found.name = kStationarySensor;
+  if (settings.poses == kStationarySensor) {
+    found.poses = stationary_poses(keys, pose_settings);
     return found;
   }
   const fs::path path = find_pose_file(folder, settings.poses);
@@ -287,6 +289,13 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
     scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
                      *found.poses.poses[i], heads.layouts[i]});
   }
+  sequence.fixed_frames = [bag, frame = frame_name(heads.frame)] {
+    std::map<std::string, Eigen::Vector3d> places;
+    for (const auto& [name, pose] : FrameTree(*bag).fixed_frames(frame)) {
+      places[name] = pose.translation();
+    }
+    return places;
+  };
   sequence.poses_file = found.name;
   sequence.damage = bag->damage();
   sequence.notes.push_back(path.filename().string() + ": the scans are those of " +

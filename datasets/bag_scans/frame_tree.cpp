@@ -175,6 +175,29 @@ void FrameTree::read_links(std::map<std::string, MotionStep>& links) const {
   }
 }
 
+std::map<std::string, Pose> FrameTree::fixed_frames(const std::string& frame) const {
+  const std::string where = bag_name(bag_) + ": tf";
+  std::map<std::string, Pose> found = {{frame, Pose::Identity()}};
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (const auto& [child, edge] : edges_) {
+      const bool knows_child = found.count(child) != 0,
+                 knows_parent = found.count(edge.parent) != 0;
+      if (edge.dynamic || knows_child == knows_parent) continue;
+      const auto T_parent_child = if_whole([&] { return rigid_pose(edge.last, where); });
+      if (!T_parent_child) continue;
+      if (knows_parent) {
+        found[child] = found[edge.parent] * *T_parent_child;
+      } else {
+        found[edge.parent] = found[child] * T_parent_child->inverse();
+      }
+      grew = true;
+    }
+  }
+  found.erase(frame);
+  return found;
+}
+
 std::vector<std::string> FrameTree::losses() const {
   const std::string sentence = skipped_.sentence();
   if (sentence.empty()) return {};

@@ -59,6 +59,8 @@ class FrameTree {
   ///   no rigid motion
   [[nodiscard]] std::optional<std::vector<MotionStep>> links(const std::string& from,
                                                              const std::string& to) const;
+  /// The pose in `frame` of each frame that a chain of fixed transforms connects with it.
+  [[nodiscard]] std::map<std::string, Pose> fixed_frames(const std::string& frame) const;
   /// Sentences on messages that could not be used.
   [[nodiscard]] std::vector<std::string> losses() const;
 

@@ -16,7 +16,7 @@ std::vector<std::string> texts_of(const Bag& bag, const std::vector<std::size_t>
   return texts;
 }
 
-std::size_t named_topic(const Bag& bag, const std::string& name, const TopicWish& wish) {
+std::size_t named_topic(const Bag& bag, const std::string& name, const TopicRequest& wish) {
   std::vector<std::size_t> of_name, fitting;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < bag.topics().size(); ++i) {
@@ -69,7 +69,7 @@ std::string message_place(const Bag& bag, std::size_t topic, std::size_t message
 }
 
 std::optional<std::size_t> choose_topic(const Bag& bag, const std::optional<std::string>& named,
-                                        const TopicWish& wish) {
+                                        const TopicRequest& wish) {
   if (named) return named_topic(bag, *named, wish);
   std::vector<std::size_t> fitting;
   for (std::size_t i = 0; i < bag.topics().size(); ++i) {

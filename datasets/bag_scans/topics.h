@@ -20,7 +20,7 @@ std::string topics_sentence(const Bag& bag);
 std::string message_place(const Bag& bag, std::size_t topic, std::size_t message);
 
 /// A description of the topic to choose.
-struct TopicWish {
+struct TopicRequest {
   std::string option;  ///< The flag that names a topic: "--topic".
   std::string kind;    ///< "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)".
   std::function<bool(const BagTopic&)> fits;
@@ -31,6 +31,6 @@ struct TopicWish {
 /// @throws UsageError naming the topics of the bag, if the named topic is missing or does not fit,
 ///   or if several fit
 std::optional<std::size_t> choose_topic(const Bag& bag, const std::optional<std::string>& named,
-                                        const TopicWish& wish);
+                                        const TopicRequest& wish);
 
 }  // namespace raymoval

@@ -15,11 +15,11 @@
 #include "core/text.h"
 #include "datasets/bags/bag.h"
 #include "datasets/bags/bag_file.h"
+#include "datasets/bags/decompress.h"
 #include "datasets/bags/mcap/mcap_bag.h"
 #include "datasets/bags/ros1/ros1_bag.h"
 #include "datasets/bags/ros2/db3_bag.h"
 #include "datasets/bags/ros2/folder_bag.h"
-#include "datasets/bags/unpack.h"
 
 namespace raymoval {
 namespace {
@@ -39,20 +39,20 @@ std::uint64_t room_in(const fs::path& folder) {
 
 /// A recording in a file that Zstandard compressed as a whole. Opening it decompresses it to a
 /// private folder.
-class PackedBag : public Bag {
+class CompressedBag : public Bag {
  public:
   using Open = std::unique_ptr<Bag> (*)(const fs::path&);
   /// @throws DataError if the disk has no room for it, or if it decompresses to more than 1,000
   ///   times its bytes and 1 MiB; UnreadableError if the disk fails; the errors of `open` for the
   ///   file inside
-  PackedBag(const fs::path& path, Open open) : path_(path) {
+  CompressedBag(const fs::path& path, Open open) : path_(path) {
     const BagFile packed(path);
     const fs::path copy = folder_.path() / without_zstd_ending(path.filename());
     const std::uint64_t counted = std::min(packed.size(), std::uint64_t{1} << 50U);
     const std::uint64_t most = std::min(room_in(folder_.path()), 1000 * counted + (1U << 20U));
     FileWriter writer(copy);
     problem_ =
-        unpack_zstd_file(packed, most, [&](std::string_view piece) { writer.append(piece); });
+        decompress_zstd_file(packed, most, [&](std::string_view piece) { writer.append(piece); });
     writer.commit();
     bag_ = open(copy);
   }
@@ -128,7 +128,7 @@ std::unique_ptr<Bag> open_inside(const fs::path& file) {
 
 std::unique_ptr<Bag> open_file(const fs::path& file) {
   if (container_of(file) != BagContainer::kZstd) return open_inside(file);
-  return std::make_unique<PackedBag>(file, open_inside);
+  return std::make_unique<CompressedBag>(file, open_inside);
 }
 
 std::unique_ptr<Bag> open_in_folder(const fs::path& file) {

@@ -194,7 +194,7 @@ double column_distance(const std::vector<float>& numbers, std::size_t width, std
 }
 
 /// Distance of the columns under `width`; 0 if columns differ under the usual width as well.
-double told_apart(const std::vector<float>& numbers, std::size_t width) {
+double layout_difference(const std::vector<float>& numbers, std::size_t width) {
   const std::size_t step = std::gcd(width, kUsualWidth);
   if (column_distance(numbers, kUsualWidth, step) > kAlike) return 0.0;
   return column_distance(numbers, width, step);
@@ -222,7 +222,7 @@ std::optional<std::size_t> seen_width(const std::vector<std::filesystem::path>& 
     if (numbers.empty()) continue;
     any = true;
     for (std::size_t k = 0; k < widths.size(); ++k) {
-      least[k] = std::min(least[k], told_apart(numbers, widths[k]));
+      least[k] = std::min(least[k], layout_difference(numbers, widths[k]));
     }
   }
   std::optional<std::size_t> seen;

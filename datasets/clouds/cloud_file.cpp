@@ -43,12 +43,13 @@ void check_no_pointer(const std::filesystem::path& path, std::string_view text) 
 
 /// Calls `read` with the content of a file of points, decompressed.
 template <class Read>
-auto read_unpacked(const std::filesystem::path& path, const RecordReading& reading, Read&& read) {
+auto read_decompressed(const std::filesystem::path& path, const RecordReading& reading,
+                       Read&& read) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   check_no_pointer(path, text);
-  if (!is_packed(path)) return read(CloudBytes{path, text, reading});
-  const std::string unpacked = unpack_gzip(text, path.string());
+  if (!is_compressed(path)) return read(CloudBytes{path, text, reading});
+  const std::string unpacked = decompress_gzip(text, path.string());
   return read(CloudBytes{path, unpacked, reading});
 }
 
@@ -115,7 +116,7 @@ std::string cloud_stem(const std::filesystem::path& path) {
   return extension.empty() ? path.stem().string() : name.substr(0, name.size() - extension.size());
 }
 
-bool is_packed(const std::filesystem::path& path) {
+bool is_compressed(const std::filesystem::path& path) {
   return cloud_extension(path).ends_with(kPacked);
 }
 
@@ -124,7 +125,7 @@ namespace {
 /// @throws UsageError naming the supported endings if the ending of `path` is not among them
 const CloudFormat& format_read(const std::filesystem::path& path) {
   std::string extension = cloud_extension(path);
-  if (is_packed(path)) extension.resize(extension.size() - std::string_view(kPacked).size());
+  if (is_compressed(path)) extension.resize(extension.size() - std::string_view(kPacked).size());
   for (const CloudFormat& format : cloud_formats()) {
     if (format.extension == extension) return format;
   }
@@ -144,19 +145,19 @@ const CloudFormat& format_written(const std::filesystem::path& path) {
 Cloud read_cloud(const std::filesystem::path& path, const Eigen::Vector3d& origin,
                  const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  return read_unpacked(path, reading,
-                       [&](const CloudBytes& file) { return format.read_cloud(file, origin); });
+  return read_decompressed(path, reading,
+                           [&](const CloudBytes& file) { return format.read_cloud(file, origin); });
 }
 
 PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  return read_unpacked(path, reading,
-                       [&](const CloudBytes& file) { return format.read_records(file); });
+  return read_decompressed(path, reading,
+                           [&](const CloudBytes& file) { return format.read_records(file); });
 }
 
 RecordLayout read_layout(const std::filesystem::path& path, const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  const bool by_itself = format.read_layout != nullptr && !is_packed(path);
+  const bool by_itself = format.read_layout != nullptr && !is_compressed(path);
   return by_itself ? format.read_layout(path, reading) : read_records(path, reading).layout;
 }
 
@@ -169,8 +170,8 @@ Pose read_viewpoint(const std::filesystem::path& path) {
   return rigid_pose(viewpoint->head<3>(), viewpoint->tail<4>(), path.string() + ": VIEWPOINT");
 }
 
-std::vector<std::string> what_is_lost(const std::filesystem::path& path,
-                                      const RecordLayout& layout) {
+std::vector<std::string> format_losses(const std::filesystem::path& path,
+                                       const RecordLayout& layout) {
   return format_written(path).lost(layout);
 }
 

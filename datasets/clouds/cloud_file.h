@@ -33,7 +33,7 @@ std::string cloud_stem(const std::filesystem::path& path);
 std::string conversion_text(const std::filesystem::path& path);
 
 /// Whether `path` names a file of points that is compressed with gzip.
-bool is_packed(const std::filesystem::path& path);
+bool is_compressed(const std::filesystem::path& path);
 
 /// Reads positions and intensities of the points of a file of any known format, see
 /// `cloud_extensions`.
@@ -80,8 +80,8 @@ RecordLayout read_layout(const std::filesystem::path& path, const RecordReading&
 
 /// Sentences on fields of `layout` that the format of `path` cannot store bit for bit; none if all
 /// can be stored. @throws UsageError for an unknown extension
-std::vector<std::string> what_is_lost(const std::filesystem::path& path,
-                                      const RecordLayout& layout);
+std::vector<std::string> format_losses(const std::filesystem::path& path,
+                                       const RecordLayout& layout);
 
 /// The field of `layout` that the format of `path` also stores as a rounded value, multiplied by
 /// `RecordWriting::intensity_scale`. Empty if there is none. @throws UsageError for an unknown

@@ -159,7 +159,7 @@ class PlyHeaderParser {
   void skip_lines(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count;) {
       const std::size_t end = bytes_.find('\n', header_.body_offset);
-      if (end == std::string_view::npos) fail_cut();
+      if (end == std::string_view::npos) fail_truncated();
       const std::string_view line = bytes_.substr(header_.body_offset, end - header_.body_offset);
       i += line.find_first_not_of(" \t\r") == std::string_view::npos ? 0 : 1;
       header_.body_offset = end + 1;
@@ -169,7 +169,7 @@ class PlyHeaderParser {
 
   void skip_bytes(std::uint64_t size, std::uint64_t count) {
     const std::uint64_t left = bytes_.size() - header_.body_offset;
-    if (size != 0 && count > left / size) fail_cut();
+    if (size != 0 && count > left / size) fail_truncated();
     header_.body_offset += size * count;
   }
 
@@ -183,11 +183,11 @@ class PlyHeaderParser {
     std::uint32_t count = 0;
     std::memcpy(&count, raw.data(), sizeof count);
     const bool below_zero = property.count_type->type == 'I' && (count >> (8 * size - 1)) != 0;
-    if (below_zero) fail_cut();
+    if (below_zero) fail_truncated();
     return count;
   }
 
-  [[noreturn]] void fail_cut() const {
+  [[noreturn]] void fail_truncated() const {
     throw DataError(path_.string() +
                     ": the file ends within the elements before its vertices; it looks truncated." +
                     kRereadRemedy);

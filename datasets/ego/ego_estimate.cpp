@@ -214,7 +214,7 @@ EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
                          const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
   EgoEstimate estimate;
   estimate.scans = scans.size();
-  if (!estimate.can_tell()) return estimate;
+  if (!estimate.has_enough_motion()) return estimate;
   VoxelSet steady = steady_cells(scans, ground_of(scans.size(), surfels));
   erase_filled(scans, steady);
   estimate.steady = steady.size();

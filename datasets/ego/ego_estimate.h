@@ -22,9 +22,9 @@ struct EgoEstimate {
   VoxelSet own;  ///< Cells of the machine.
 
   /// Whether the sensor moved enough for an estimate.
-  [[nodiscard]] bool can_tell() const { return scans >= 5; }
+  [[nodiscard]] bool has_enough_motion() const { return scans >= 5; }
   /// Whether a machine was found. Fewer cells may be chance.
-  [[nodiscard]] bool found() const { return can_tell() && own.size() >= 4; }
+  [[nodiscard]] bool found() const { return has_enough_motion() && own.size() >= 4; }
   /// Whether `point` (sensor frame) lies in a cell of the machine.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;
   /// The box around the cells of the machine with a margin for noise; of kind kNone if none was

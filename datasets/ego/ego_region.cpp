@@ -101,7 +101,7 @@ EgoRegion estimated_region(const ScanSource& source) {
   }
   const EgoEstimate estimate =
       estimate_ego(chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; });
-  if (!estimate.can_tell()) {
+  if (!estimate.has_enough_motion()) {
     throw DataError(
         "--drop-ego auto: only " + counted_text(estimate.scans, "scan") +
         " a metre or more apart, but it takes five to find points that move with the sensor. "

@@ -122,7 +122,7 @@ Finding count_finding(const fs::path& poses, std::size_t rows, const fs::path& f
 std::vector<Finding> check_count(const fs::path& folder, const Layout& layout,
                                  const SequenceOptions& options) {
   const auto settings = read_settings(folder, options, {});
-  if (settings.poses == kStandingSensor) return {};
+  if (settings.poses == kStationarySensor) return {};
   const auto path = find_pose_file(folder, settings.poses.value_or("poses.txt"));
   const PoseFile file = read_pose_file(path, {settings.pose_format});
   // Poses with times, and one pose for all scans, need not match the number of scans.

@@ -19,7 +19,7 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
   return grouped_text(part) + " of " + grouped_text(whole) + " stored points";
 }
 
-std::string own_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& points) {
+std::string ego_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& points) {
   const EgoRegion& region = source.region();
   const bool estimated = source.asked().kind == EgoRegion::Kind::kEstimated;
   if (region.kind == EgoRegion::Kind::kNone) {
@@ -30,8 +30,8 @@ std::string own_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& p
                                                : "in the box " + ego_region_text(region) + " m") +
       (estimated ? ", as estimated" : "");
   const std::string left = " on the ego vehicle (" + where + ") and ";
-  if (points.own_vehicle == 0) return "no point is" + left + "left out";
-  return share_text(points.own_vehicle, points.looked_at) + " are" + left + "are left out";
+  if (points.ego_vehicle == 0) return "no point is" + left + "left out";
+  return share_text(points.ego_vehicle, points.looked_at) + " are" + left + "are left out";
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ std::string own_vehicle_line(const EgoFreeSource& source, const LeftOutPoints& p
 LeftOutPoints left_out_points(const Sequence& sequence) {
   LeftOutPoints points;
   if (const EgoFreeSource* without_ego = ego_free_source(sequence)) {
-    std::tie(points.looked_at, points.own_vehicle) = without_ego->tally().total();
+    std::tie(points.looked_at, points.ego_vehicle) = without_ego->tally().total();
   }
   if (const auto* tallied = dynamic_cast<const TalliedSource*>(&stored_source(sequence))) {
     std::tie(points.stored, points.no_returns) = tallied->tally().total();
@@ -69,7 +69,7 @@ std::vector<std::string> left_out_lines(const Sequence& sequence) {
   }
   const EgoFreeSource* without_ego = ego_free_source(sequence);
   if (without_ego != nullptr && points.looked_at > 0) {
-    lines.push_back(own_vehicle_line(*without_ego, points));
+    lines.push_back(ego_vehicle_line(*without_ego, points));
   }
   return lines;
 }

@@ -14,7 +14,7 @@ struct LeftOutPoints {
   std::uint64_t stored = 0;       ///< In the files that were read.
   std::uint64_t no_returns = 0;   ///< Stored points that are not a number or at the sensor.
   std::uint64_t looked_at = 0;    ///< Stored points of the scans that `--drop-ego` checked.
-  std::uint64_t own_vehicle = 0;  ///< Of `looked_at`, in the region of the ego vehicle.
+  std::uint64_t ego_vehicle = 0;  ///< Of `looked_at`, in the region of the ego vehicle.
 };
 
 /// "1 of 60 scans have no return, the first is 000014.pcd; their masks are empty", of the scans

@@ -30,7 +30,7 @@ namespace {
 inline constexpr const char* kMoversFile = "movers.json";
 
 /// The static label of a moving label; other labels are unchanged.
-std::uint16_t standing_id(std::uint16_t id) {
+std::uint16_t static_id(std::uint16_t id) {
   static const std::map<std::uint16_t, std::uint16_t> ids = {
       {252, 10}, {253, 31}, {254, 30}, {255, 32}, {256, 16}, {257, 13}, {258, 18}, {259, 20}};
   const auto found = ids.find(id);
@@ -91,7 +91,7 @@ class MovingNowLabels : public LabelSource {
     std::vector<std::uint32_t> words = labels_->labels(scan);
     const std::vector<std::uint8_t> stands = standing(frames_.at(scan.index));
     for (std::uint32_t& word : words) {
-      if (stands[word >> 16U] != 0) word = (word & 0xFFFF0000U) | standing_id(semantic_id(word));
+      if (stands[word >> 16U] != 0) word = (word & 0xFFFF0000U) | static_id(semantic_id(word));
     }
     return words;
   }
@@ -243,8 +243,8 @@ ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSetting
                       const ScanKeys& keys, Sequence& sequence) {
   PoseSettings options = pose_settings(settings, folder, sequence.input_files);
   sequence.T_body_sensor = options.T_body_sensor;
-  sequence.poses_file = kStandingSensor;
-  if (settings.poses == kStandingSensor) return standing_poses(keys, options);
+  sequence.poses_file = kStationarySensor;
+  if (settings.poses == kStationarySensor) return stationary_poses(keys, options);
   const auto path = find_pose_file(folder, settings.poses);
   sequence.poses_file = path.filename().string();
   sequence.input_files.push_back(path);

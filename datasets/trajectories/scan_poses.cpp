@@ -64,8 +64,8 @@ ScanPoses by_time(const PoseFile& file, const ScanKeys& scans, const PoseSetting
 }
 
 /// Reports the number of scans without a pose. @throws PosesMissing if it is half of them or more
-void tell_missing(const PoseFile& file, const std::string& why, const std::string& remedy,
-                  ScanPoses& result) {
+void report_missing(const PoseFile& file, const std::string& why, const std::string& remedy,
+                    ScanPoses& result) {
   const auto missing =
       static_cast<std::size_t>(std::count(result.poses.begin(), result.poses.end(), std::nullopt));
   if (missing == 0) return;
@@ -88,7 +88,8 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
       result.poses.back() = sensor_pose(rigid_pose(file, row), settings);
     }
   }
-  tell_missing(file, "their rows hold nan", "Take a trajectory with a pose for each scan.", result);
+  report_missing(file, "their rows hold nan", "Take a trajectory with a pose for each scan.",
+                 result);
   result.stamps = assumed_stamps(scans, &file);
   if (file.stamped() && scans.stamps.empty()) {
     const Nanoseconds first = *file.rows.front().stamp;
@@ -114,11 +115,11 @@ ScanPoses by_frame(const PoseFile& file, const ScanKeys& scans, const PoseSettin
       result.poses.back() = sensor_pose(rigid_pose(file, row->second), settings);
     }
   }
-  tell_missing(file,
-               "the file has those of " + counted_text(rows.size(), "frame") + " from " +
-                   std::to_string(rows.begin()->first) + " to " +
-                   std::to_string(rows.rbegin()->first),
-               "Take the file that belongs to these scans, whose names are frame numbers.", result);
+  report_missing(
+      file,
+      "the file has those of " + counted_text(rows.size(), "frame") + " from " +
+          std::to_string(rows.begin()->first) + " to " + std::to_string(rows.rbegin()->first),
+      "Take the file that belongs to these scans, whose names are frame numbers.", result);
   result.stamps = assumed_stamps(scans, nullptr);
   result.motion = motion_along(result.stamps, result.poses);
   return result;
@@ -204,7 +205,7 @@ ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSett
   return result;
 }
 
-ScanPoses standing_poses(const ScanKeys& scans, const PoseSettings& settings) {
+ScanPoses stationary_poses(const ScanKeys& scans, const PoseSettings& settings) {
   refuse_offset(settings, "the sensor is stationary");
   ScanPoses result = one_for_all(settings.T_body_sensor.value_or(Pose::Identity()), scans);
   result.times_s = scans.times_s;

@@ -65,7 +65,7 @@ bool fits_rows(const PoseFile& file, const ScanKeys& scans);
 ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings);
 
 /// The same for a stationary sensor at the origin of the world.
-ScanPoses standing_poses(const ScanKeys& scans, const PoseSettings& settings);
+ScanPoses stationary_poses(const ScanKeys& scans, const PoseSettings& settings);
 
 /// Motion along poses that are assigned to scans by order. All gaps are interpolated, because the
 /// times of such scans are often assumed. Null if there is no pose.

@@ -95,11 +95,11 @@ constexpr double kOffGround = 30.0;  ///< Degrees from the ground's direction: b
 constexpr double kUpright = 2.0;     ///< Largest lean of upright surfaces, degrees.
 
 // The decision.
-constexpr double kMeantAxis = 40.0;    ///< Degrees: so near to the ground's normal, `usual` stays.
-constexpr double kLeastTilt = 8.0;     ///< Degrees
-constexpr double kSteepest = 30.0;     ///< Degrees: no vehicle's path is steeper as a whole.
-constexpr double kLeastShare = 0.12;   ///< Of surfaces that are not ground.
-constexpr double kLeastUpright = 4.0;  ///< Square metres per scan.
+constexpr double kIntendedAxis = 40.0;  ///< Degrees: so near to the ground's normal, `usual` stays.
+constexpr double kLeastTilt = 8.0;      ///< Degrees
+constexpr double kSteepest = 30.0;      ///< Degrees: no vehicle's path is steeper as a whole.
+constexpr double kLeastShare = 0.12;    ///< Of surfaces that are not ground.
+constexpr double kLeastUpright = 4.0;   ///< Square metres per scan.
 constexpr double kTimesBetter = 1.5;
 
 double cosine(double degrees) {
@@ -309,8 +309,8 @@ bool is_contradicted(const Vector3d& usual, const Vector3d& ground, const Surfac
   return floor < kMostFloor * other && !(is_turned && open > kMostCeiling);
 }
 
-Vector3d axis_meant(const Vector3d& ground, const Vector3d& usual) {
-  if (ground.dot(usual) >= cosine(kMeantAxis)) return usual;
+Vector3d intended_axis(const Vector3d& ground, const Vector3d& usual) {
+  if (ground.dot(usual) >= cosine(kIntendedAxis)) return usual;
   Eigen::Index axis = 0;
   ground.cwiseAbs().maxCoeff(&axis);
   return Vector3d::Unit(axis) * (ground[axis] < 0.0 ? -1.0 : 1.0);
@@ -324,13 +324,13 @@ GravityEvidence estimate_gravity(const ScanSource& scans, const Vector3d& usual)
   const Surfaces surfaces = collect(scans);
   evidence.ground = find_ground(surfaces, usual);
   if (evidence.ground.isZero()) return evidence;
-  if (evidence.ground.dot(usual) < cosine(kMeantAxis) &&
+  if (evidence.ground.dot(usual) < cosine(kIntendedAxis) &&
       !is_contradicted(usual, evidence.ground, surfaces, normal_of_path(scans))) {
     double area = 0.0;
     evidence.ground = refined_ground(surfaces, usual, area);
     if (area < kLeastGround * surfaces.scans) return evidence;
   }
-  const Vector3d axis = axis_meant(evidence.ground, usual);
+  const Vector3d axis = intended_axis(evidence.ground, usual);
   const Sides sides = sides_of(surfaces, evidence.ground);
   evidence.upright = find_upright(sides, evidence.ground);
   bool clear = evidence.ground.dot(axis) < cosine(kSteepest);

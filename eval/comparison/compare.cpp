@@ -100,7 +100,7 @@ class Comparer {
       if (partners.contains(&cell)) continue;
       add_cell_line(Change::kMoved, cell, cell, "not in the reference, not compared");
     }
-    if (!not_alike_.empty()) result_.times.push_back("not compared: " + not_alike_);
+    if (!load_difference_.empty()) result_.times.push_back("not compared: " + load_difference_);
     if (!result_.times.empty() && run.machine != reference.machine) {
       result_.times.push_back("the times are of different machines: " + run.machine +
                               "; the reference: " + reference.machine);
@@ -243,8 +243,8 @@ class Comparer {
                     run.seconds_per_scan, Change::kSame, reference.side_by_side,
                     run.side_by_side};
     const bool both = time.before && time.after && *time.before > 0.0;
-    const bool comparable = both && time.taken_alike();
-    if (both && !comparable) not_alike_ = side_by_side_text(time);
+    const bool comparable = both && time.has_equal_load();
+    if (both && !comparable) load_difference_ = side_by_side_text(time);
     if (!comparable && !options_.time_band) return;
     if (!comparable) {
       time.change = Change::kIncomparable;
@@ -263,8 +263,8 @@ class Comparer {
 
   const ComparisonOptions& options_;
   Comparison result_;
-  bool timeless_ = false;  ///< The reference has no time at all.
-  std::string not_alike_;  ///< Why times of some cells are not compared.
+  bool timeless_ = false;        ///< The reference has no time at all.
+  std::string load_difference_;  ///< Why times of some cells are not compared.
   bool parameters_differ_ =
       false;                   ///< At least one cell is not comparable for its parameters only.
   bool more_differs_ = false;  ///< At least one cell is not comparable for another reason.

@@ -105,7 +105,7 @@ struct TimeChange {
   int before_side_by_side = 1, after_side_by_side = 1;  ///< Cells that ran at once.
 
   /// Whether as many cells ran at once on both sides. Else nothing follows from the ratio.
-  [[nodiscard]] bool taken_alike() const { return before_side_by_side == after_side_by_side; }
+  [[nodiscard]] bool has_equal_load() const { return before_side_by_side == after_side_by_side; }
 
   /// Time of the run divided by the reference's; only if both sides have a time.
   [[nodiscard]] double ratio() const { return *after / *before; }

@@ -105,7 +105,7 @@ std::string change_text(const CountChange& count) {
 }
 
 std::string change_text(const TimeChange& time) {
-  if (time.before && time.after && !time.taken_alike()) {
+  if (time.before && time.after && !time.has_equal_load()) {
     return side_by_side_text(time) + "; leave --time-band out";
   }
   if (time.change == Change::kIncomparable) return "no time on both sides; leave --time-band out";

@@ -51,7 +51,7 @@ class DynamicMapScoring : public Scoring {
   explicit DynamicMapScoring(const PresenceCount::Input& input)
       : presence_(PresenceCount::start(input, {})) {}
 
-  [[nodiscard]] bool waits_for_others() const override { return presence_->waits_for_others(); }
+  [[nodiscard]] bool runs_last() const override { return presence_->runs_last(); }
   bool begin_pass(std::size_t slots) override { return presence_->begin_pass(slots); }
   void read(const CheckedScan& scan, std::size_t slot) override { presence_->read(scan, slot); }
   void take(std::size_t slot) override { presence_->take(slot); }

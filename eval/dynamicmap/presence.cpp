@@ -128,7 +128,7 @@ class MarkedPresence : public PresenceCount {
   }
 
   /// After the first pass, if the map is large.
-  [[nodiscard]] bool waits_for_others() const override {
+  [[nodiscard]] bool runs_last() const override {
     return step_ != kStart && needs_marks() && blocks().size() >= kManyBlocks;
   }
 

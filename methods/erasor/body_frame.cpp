@@ -148,8 +148,8 @@ Pose body_frame(const Pose& T_world_sensor, const NaiveMap& map, const Parameter
   return T_body_sensor;
 }
 
-bool is_own_car(const Eigen::Vector3f& point, const Pose& T_world_sensor,
-                const Parameters& parameters) {
+bool is_ego_vehicle(const Eigen::Vector3f& point, const Pose& T_world_sensor,
+                    const Parameters& parameters) {
   Eigen::Vector3d from_sensor = point.cast<double>();
   if (parameters.body == Body::kGround) from_sensor = T_world_sensor.linear() * from_sensor;
   return from_sensor.head<2>().squaredNorm() < parameters.minimum_range * parameters.minimum_range;

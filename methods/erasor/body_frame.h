@@ -23,8 +23,8 @@ Pose body_frame(const Pose& T_world_sensor, const NaiveMap& map, const Parameter
 /// plane of the sensor, as published; with `Body::kGround`, it is horizontal for any tilt of the
 /// sensor.
 /// @param point sensor frame, metres
-bool is_own_car(const Eigen::Vector3f& point, const Pose& T_world_sensor,
-                const Parameters& parameters);
+bool is_ego_vehicle(const Eigen::Vector3f& point, const Pose& T_world_sensor,
+                    const Parameters& parameters);
 
 /// `minimum_num_pts`; with `points_by_beams`, less for a sensor whose beams are farther apart than
 /// those of the HDL-64E of the published sets; at least one.

@@ -116,7 +116,7 @@ class ErasorRun {
     parallel_for(context_.threads, scan.size(), 8192, [&](std::size_t k) {
       const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
       points.world[k] = world;
-      points.keys[k] = is_own_car(scan.points[k], scan.T_world_sensor, parameters_)
+      points.keys[k] = is_ego_vehicle(scan.points[k], scan.T_world_sensor, parameters_)
                            ? NaiveMapBuilder::kNoVoxel
                            : voxel_key(voxel_index(world, inverse));
     });
@@ -135,7 +135,7 @@ class ErasorRun {
     ThinnedPoints thinned(parameters_.query_voxel_size);
     std::vector<int> slot_of_point(scan.size(), -1);  // -1: a point of the ego vehicle.
     for (std::size_t k = 0; k < scan.size(); ++k) {
-      if (is_own_car(scan.points[k], scan.T_world_sensor, parameters_)) continue;
+      if (is_ego_vehicle(scan.points[k], scan.T_world_sensor, parameters_)) continue;
       slot_of_point[k] = static_cast<int>(thinned.add(scan.points[k].cast<double>()));
     }
     std::vector<int> bin_of_slot(thinned.size());

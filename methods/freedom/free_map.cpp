@@ -136,7 +136,7 @@ bool FreeMap::is_free(const VoxelIndex& voxel) const {
   return block != nullptr && (block->is_free[place.word] & place.mask()) != 0;
 }
 
-void FreeMap::take_hits(ScanMap& scan) {
+void FreeMap::count_hits(ScanMap& scan) {
   std::vector<VoxelIndex> reverted;
   for (ScanVoxel& voxel : scan.voxels()) {
     FreeBlock* block = blocks_.find(block_of(voxel.at));
@@ -213,7 +213,7 @@ BlockBits FreeMap::all_neighbours_ready(const VoxelIndex& index) const {
   return ready;
 }
 
-std::vector<VoxelIndex> FreeMap::take_passes(const scan_grid::ScanGrid& rays) {
+std::vector<VoxelIndex> FreeMap::count_passes(const scan_grid::ScanGrid& rays) {
   std::vector<Candidates> candidates;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     for_each_passed_block(rays[i], [&](const VoxelIndex& block, const BlockBits& passed) {

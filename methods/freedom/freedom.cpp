@@ -43,13 +43,13 @@ void look(const Scan& scan, const DepthView& view, const Parameters& parameters,
 void take_in(ScanWork& work, const RunContext& context, FreeMap& free_space, StaticMap& points) {
   {
     const StageScope timed(context.times, "scan removal");
-    free_space.take_hits(work.voxels);
+    free_space.count_hits(work.voxels);
     work.voxels.grow();
   }
   std::vector<VoxelIndex> newly_free;
   {
     const StageScope timed(context.times, "free space");
-    newly_free = free_space.take_passes(work.rays);
+    newly_free = free_space.count_passes(work.rays);
   }
   {
     const StageScope timed(context.times, "map removal");

@@ -118,9 +118,9 @@ class FreeMap {
 
   /// First part of step 2: counts the voxels of a scan as hit. Hit voxels that are free become
   /// conservative. Voxels that are hit too often, and their neighbours, are no longer free.
-  void take_hits(ScanMap& scan);
+  void count_hits(ScanMap& scan);
   /// Second part of step 4: counts the voxels that rays of a scan pass. @return the newly free ones
-  [[nodiscard]] std::vector<VoxelIndex> take_passes(const scan_grid::ScanGrid& rays);
+  [[nodiscard]] std::vector<VoxelIndex> count_passes(const scan_grid::ScanGrid& rays);
 
   [[nodiscard]] bool is_free(const VoxelIndex& voxel) const;
 

@@ -50,7 +50,7 @@ void ScanAgainstMap::project_next(Scan scan, const RunContext& context) {
   find_voxels(next_.scan, 1.0 / parameters_.voxel_size, context.threads, next_.voxels);
   project(next_.scan, grid_, parameters_.minimum_range, context.threads, next_.projected);
   // Eq. 8 is needed where the scan has a return.
-  next_.wanted.ask_around(next_.projected.minimum_range, grid_, parameters_.neighbourhood);
+  next_.wanted.request_around(next_.projected.minimum_range, grid_, parameters_.neighbourhood);
 }
 
 void ScanAgainstMap::cast_first_hits(OccupancyMap& map, const RunContext& context) {

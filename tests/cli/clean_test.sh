@@ -1,10 +1,10 @@
-#!/ usr / bin / env bash
-#SPDX - License - Identifier : MIT
-#What `raymoval clean` refuses, warns of and leaves behind, and what no method gets to see.
-#Usage : clean_test.sh PATH / TO / raymoval_faulty
-set - uo pipefail raymoval = $(readlink - f "$1") source "$(dirname " $ {
-  BASH_SOURCE[0]
-}")/checks.sh"
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What `raymoval clean` refuses, warns of and leaves behind, and what no method gets to see.
+# Usage: clean_test.sh PATH/TO/raymoval_faulty
+set -uo pipefail
+raymoval=$(readlink -f "$1")
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export RAYMOVAL_CACHE=$work/cache
 
 nothing_left() {
@@ -17,7 +17,7 @@ expect 0 "raymoval:online removed" clean drive "${online[@]}" -o good.pcd
 cp err.txt said.txt
 holds "nothing is said of good data" test ! -s said.txt
 
-#Points in millimetres : refused at once and with the finding, in spite of any memory.
+# Points in millimetres: refused at once and with the finding, in spite of any memory.
 cp -r drive millimetres
 for scan in millimetres/velodyne/*.bin; do
   perl -e 'binmode STDIN; binmode STDOUT; local $/; @v = unpack("f<*", <STDIN>);

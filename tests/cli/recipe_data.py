@@ -290,7 +290,38 @@ def livox(drive, folder):
     (folder / "trajectory.txt").write_text(tum(drive))
 
 
-RECIPES = {"world-frame": world_frame, "kiss-icp": kiss_icp, "fast-lio": fast_lio, "glim": glim,
+EARTH_RADIUS, LATITUDE, LONGITUDE = 6378137.0, 49.0, 8.4
+
+
+def kitti_raw(drive, folder):
+    """oxts/data by the formulas of KITTI's development kit, turned round."""
+    (folder / "drive/velodyne_points/data").mkdir(parents=True)
+    (folder / "drive/oxts/data").mkdir(parents=True)
+    velo_imu = [[1.0, 0.0, 0.0, -0.8], [0.0, 1.0, 0.0, 0.3], [0.0, 0.0, 1.0, -0.8]]
+    (folder / "calib_imu_to_velo.txt").write_text("R: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.8\n")
+    scale = math.cos(math.radians(LATITUDE)) * EARTH_RADIUS
+    start = scale * math.log(math.tan(math.radians(90.0 + LATITUDE) / 2.0))
+    for i, (pose, scan) in enumerate(zip(drive.poses, drive.scans)):
+        name = f"drive/velodyne_points/data/{i:010d}.bin"
+        (folder / name).write_bytes(b"".join(struct.pack("<4f", *p) for p in scan))
+        imu = product(pose, velo_imu)
+        x, y, z = position(imu)
+        row = [math.degrees(2.0 * math.atan(math.exp((start + y) / scale))) - 90.0,
+               LONGITUDE + math.degrees(x / scale), 110.0 + z, math.atan2(imu[2][1], imu[2][2]),
+               math.asin(-imu[2][0]), math.atan2(imu[1][0], imu[0][0])]
+        (folder / f"drive/oxts/data/{i:010d}.txt").write_text(" ".join(map(repr, row + [0.0] * 24)))
+
+
+def hdl_graph_slam(drive, folder):
+    for i, (pose, scan) in enumerate(zip(drive.poses, drive.scans)):
+        keyframe = folder / f"dump/{i:06d}"
+        keyframe.mkdir(parents=True)
+        (keyframe / "cloud.pcd").write_bytes(pcd(scan))
+        matrix = "\n".join(" ".join(map(repr, row)) for row in pose + [[0.0, 0.0, 0.0, 1.0]])
+        (keyframe / "data").write_text(f"stamp {i} 0\nestimate\n{matrix}\nodom\n{matrix}\naccum_distance {i}\nid {i}\n")
+
+
+RECIPES = {"kitti-raw": kitti_raw, "hdl-graph-slam": hdl_graph_slam, "world-frame": world_frame, "kiss-icp": kiss_icp, "fast-lio": fast_lio, "glim": glim,
            "ros1-odometry": ros1_odometry, "ros2-tf": ros2_tf, "livox": livox, "doals": doals}
 
 if __name__ == "__main__":

@@ -28,6 +28,10 @@ for page in "$pages"/*.md; do
   holds "$name begins with three lines" test "$(lines "$page" | wc -l)" -eq 3
   holds "$name has its data" python3 -B "$source_folder/tests/cli/recipe_data.py" "$work/drive" "$name" "$work/$name"
   cd "$work/$name" || exit 1
+  ln -s "$source_folder/examples" examples
+  while read -ra words; do
+    holds "$name: ${words[*]}" "${words[@]}"
+  done < <(grep '^    python3 ' "$page")
   while read -r _ words; do
     read -ra words <<<"$words"
     quick=(--quiet)

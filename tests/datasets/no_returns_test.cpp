@@ -120,5 +120,5 @@ TEST_CASE("Of a sequence that is not read from files nothing is left out") {
   CHECK(points.stored == 0);
   CHECK(points.no_returns == 0);
   CHECK(points.looked_at == 0);
-  CHECK(points.own_vehicle == 0);
+  CHECK(points.ego_vehicle == 0);
 }

@@ -14,7 +14,7 @@ class NamedVisitor : public ScanVisitor {
   /// @param waits_from the pass before which it waits for others
   NamedVisitor(char name, int passes, int waits_from, std::string& told)
       : name_(name), passes_(passes), waits_from_(waits_from), told_(told) {}
-  [[nodiscard]] bool waits_for_others() const override { return pass_ + 1 >= waits_from_; }
+  [[nodiscard]] bool runs_last() const override { return pass_ + 1 >= waits_from_; }
   bool begin_pass(std::size_t /*slots*/) override {
     told_ += name_;
     const bool goes_on = ++pass_ <= passes_;

@@ -80,7 +80,7 @@ TEST_CASE("a plane is met at height over sine, kilometres from the origin, with 
   World world;
   Mesh mesh;
   add_quad(mesh, kPaint, {-300, -300, 0}, {300, -300, 0}, {300, 300, 0}, {-300, 300, 0});
-  world.add_standing(mesh, placed(5003.3, -7111.7, 40.0));
+  world.add_static(mesh, placed(5003.3, -7111.7, 40.0));
   world.finish();
   const Isometry3d pose = tilted({5000.2, -7100.1, 41.73}, 0.7, 0.21, -0.09);
   const std::size_t count =
@@ -98,7 +98,7 @@ TEST_CASE("a box is met where the slabs of its sides say") {
   const Vector3d high(2, 3, 4);
   add_box(mesh, kPaint, low, high);
   const Vector3d centre(2012.0, 3005.0, 1.0);
-  world.add_standing(mesh, placed(centre.x(), centre.y(), centre.z()));
+  world.add_static(mesh, placed(centre.x(), centre.y(), centre.z()));
   world.finish();
   const Isometry3d pose = tilted({2001.0, 3002.0, 1.2}, -0.2, 0.1, 0.05);
   const std::size_t count = compare(world, pose, [&](const Vector3d& from, const Vector3d& to) {
@@ -113,7 +113,7 @@ TEST_CASE("a sphere is met at the root of its quadratic") {
   World world;
   Mesh mesh;
   add_ellipsoid(mesh, kPaint, Vector3d::Zero(), Vector3d::Constant(2.0), 400, 800);
-  world.add_standing(mesh, placed(906.0, 0.5, 0.3));
+  world.add_static(mesh, placed(906.0, 0.5, 0.3));
   world.finish();
   const Vector3d centre(906.0, 0.5, 0.3);
   const SensorFile sensor = plain_sensor();
@@ -137,7 +137,7 @@ TEST_CASE("a cylinder is met at the root of its quadratic") {
   World world;
   Mesh mesh;
   add_tube(mesh, kPaint, {0, 0, -20}, {0, 0, 20}, 0.5, 0.5, 720);
-  world.add_standing(mesh, placed(-3.0, 4.0, 0.0));
+  world.add_static(mesh, placed(-3.0, 4.0, 0.0));
   world.finish();
   const Isometry3d pose = tilted({1.0, 0.5, 0.0}, 0.4, -0.08, 0.02);
   std::size_t count = 0;
@@ -178,7 +178,7 @@ TEST_CASE("a rolling scan is skewed by the motion of the sensor, or corrected fo
   World world;
   Mesh mesh;
   add_quad(mesh, kPaint, {0, -90, -90}, {0, 90, -90}, {0, 90, 90}, {0, -90, 90});
-  world.add_standing(mesh, placed(50, 0, 0));
+  world.add_static(mesh, placed(50, 0, 0));
   world.finish();
   const SensorFile sensor = plain_sensor();
   const auto pose = [](double time) {

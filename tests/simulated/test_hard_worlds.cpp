@@ -42,7 +42,7 @@ Sweep through_pane(const Air& air) {
     Mesh mesh;
     add_quad(mesh, {material, kLabelBuilding}, {0, -90, -90}, {0, 90, -90}, {0, 90, 90},
              {0, -90, 90});
-    world.add_standing(mesh, placed(range, 0, 0));
+    world.add_static(mesh, placed(range, 0, 0));
   }
   world.set_air(air);
   world.finish();
@@ -216,7 +216,7 @@ TEST_CASE("drops return as outliers near the sensor, and fog hides what is far")
     Mesh mesh;
     add_quad(mesh, {Material::kPlaster, kLabelBuilding}, {0, -90, -90}, {0, 90, -90}, {0, 90, 90},
              {0, -90, 90});
-    world.add_standing(mesh, placed(40, 0, 0));
+    world.add_static(mesh, placed(40, 0, 0));
     Air fog;
     fog.visibility_m = visibility;
     world.set_air(fog);

@@ -47,7 +47,7 @@ TEST_CASE("the tracer finds what trying every triangle finds") {
       corner = mesh.vertices.emplace_back((2.0 * off).cast<float>()).cast<double>() + at;
     }
     mesh.triangle(0, 1, 2, {Material::kPerfect, static_cast<std::uint32_t>(i + 1)});
-    world.add_standing(mesh, Eigen::Isometry3d(Eigen::Translation3d(at + centre)));
+    world.add_static(mesh, Eigen::Isometry3d(Eigen::Translation3d(at + centre)));
     triangles.push_back(corners);
   }
   world.finish();

@@ -17,7 +17,7 @@ Sweep sweep_of_wall(const SensorFile& sensor, double range, Material material) {
   Mesh mesh;
   add_quad(mesh, {material, kLabelBuilding}, {0, -90, -90}, {0, 90, -90}, {0, 90, 90},
            {0, -90, 90});
-  world.add_standing(mesh, placed(range, 0, 0));
+  world.add_static(mesh, placed(range, 0, 0));
   world.finish();
   const Scanner scanner(
       world, sensor, [](double) { return Isometry3d::Identity(); }, {7}, 1);
@@ -76,7 +76,7 @@ TEST_CASE("a wide beam at an edge returns ranges between near surfaces, a thin o
   const Paint paint{Material::kPerfect, kLabelBuilding};
   add_quad(mesh, paint, {10, 0, -9}, {10, 9, -9}, {10, 9, 9}, {10, 0, 9});
   add_quad(mesh, paint, {10.4, -9, -9}, {10.4, 9, -9}, {10.4, 9, 9}, {10.4, -9, 9});
-  world.add_standing(mesh, Isometry3d::Identity());
+  world.add_static(mesh, Isometry3d::Identity());
   world.finish();
   const auto between = [&](const std::string& divergence) {
     const SensorFile sensor =

@@ -42,13 +42,13 @@ fs::path written_name(const FileScanSource* files, const Scan& scan) {
   if (files == nullptr) return scan.name + ".pcd";
   const fs::path& path = files->frames()[scan.index].path;
   std::string extension = cloud_extension(path);
-  if (is_packed(path)) extension = fs::path(extension).stem().string();
+  if (is_compressed(path)) extension = fs::path(extension).stem().string();
   return cloud_stem(path) + (extension == ".npz" ? ".npy" : extension);
 }
 
 /// All scans of a sequence have one format, and the same fields.
 void check_format(const fs::path& file, const RecordLayout& layout) {
-  const std::vector<std::string> lost = what_is_lost(file, layout);
+  const std::vector<std::string> lost = format_losses(file, layout);
   if (lost.empty()) return;
   throw UsageError("--scans cannot write the scans as they are: " + join(lost, " ") +
                    " Write a map with -o, which may have another format.");
@@ -152,11 +152,15 @@ void ScanFolder::copy_settings(const fs::path& file) {
   put(file, settings.dump(2) + "\n");
 }
 
-void ScanFolder::write_labels(const fs::path& labels, const std::vector<std::uint8_t>& keep) {
+void ScanFolder::write_labels(const fs::path& labels, const CleanedScan& scan,
+                              const std::vector<std::uint8_t>& keep) {
   const std::vector<std::byte> words = read_bytes(labels);
   const auto relative = relative_to(labels, plan_.root);
-  // Labels of another count are not those of this scan, and cleaning does not need them.
-  if (!relative || words.size() != keep.size() * sizeof(std::uint32_t)) return;
+  if (!relative) return;
+  if (words.size() != keep.size() * sizeof(std::uint32_t)) {
+    unfit_labels_.push_back(scan.scan.name);
+    return;
+  }
   std::string kept;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (keep[i] == 0) continue;
@@ -174,9 +178,26 @@ void ScanFolder::add(const CleanedScan& scan) {
   const fs::path name = plan_.scans / written_name(files, scan.scan);
   put(name, whole_file(name, kept));
   if (files != nullptr && !files->frames()[scan.scan.index].label_path.empty()) {
-    write_labels(files->frames()[scan.scan.index].label_path, keep);
+    write_labels(files->frames()[scan.scan.index].label_path, scan, keep);
   }
   pose_rows_ += pose_row(scan.scan, sequence_.sensor_origin.value_or(SensorPlaces()).one);
+}
+
+std::vector<std::string> ScanFolder::remarks() const {
+  const auto of_scans = [](const std::vector<std::string>& names) {
+    return counted_text(names.size(), "scan") + " (" + names.front() +
+           (names.size() > 1 ? ", ...)" : ")");
+  };
+  std::vector<std::string> remarks;
+  if (!empty_.empty()) {
+    remarks.push_back("No point is left of " + of_scans(empty_) +
+                      ", which some programs cannot read.");
+  }
+  if (!unfit_labels_.empty()) {
+    remarks.push_back("The labels of " + of_scans(unfit_labels_) +
+                      " were not written: their number is not that of the points.");
+  }
+  return remarks;
 }
 
 void ScanFolder::finish() {

@@ -46,20 +46,22 @@ class ScanFolder : public CleanOutput {
   void add(const CleanedScan& scan) override;
   void finish() override;
   void commit_with(Replacements& together) override { folder_.commit_with(together); }
-  /// Names of scans without a remaining point; readers reject such scans.
-  [[nodiscard]] const std::vector<std::string>& empty_scans() const { return empty_; }
+  /// Scans without a remaining point, and label files that do not fit their scans.
+  [[nodiscard]] std::vector<std::string> remarks() const override;
 
  private:
   void put(const std::filesystem::path& file, std::string_view content);
   void copy(const std::filesystem::path& file);
   void copy_settings(const std::filesystem::path& file);
-  void write_labels(const std::filesystem::path& labels, const std::vector<std::uint8_t>& keep);
+  void write_labels(const std::filesystem::path& labels, const CleanedScan& scan,
+                    const std::vector<std::uint8_t>& keep);
 
   OutputFolder folder_;
   const Sequence& sequence_;
   ScanFolderPlan plan_;
   std::string pose_rows_;
-  std::vector<std::string> files_, empty_;
+  std::vector<std::string> files_;
+  std::vector<std::string> empty_, unfit_labels_;  ///< Names of scans.
 };
 
 }  // namespace raymoval

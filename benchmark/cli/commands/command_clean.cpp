@@ -233,14 +233,14 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
   text += outputs_summary(paths, outputs);
   text += "It took " + fixed_text(facts.seconds, 1) + " s.\nIf the map does not look right:\n";
   for (const std::string& line :
-       what_to_try(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
-                   facts.report.findings, !paths.page.empty() || !paths.picture.empty())) {
+       remedies(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
+                facts.report.findings, !paths.page.empty() || !paths.picture.empty())) {
     text += "  - " + line + '\n';
   }
   return text;
 }
 
-ExitCode clean_here(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
+ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const ConfiguredMethod method = configured(flags);
   const CleanWriting writing = writing_of(flags, method);
@@ -274,13 +274,14 @@ ExitCode clean(const CleanFlags& flags) {
   const CleanPaths paths = checked_paths(flags);
   const double limit = flags.process.memory_limit_mib();
   if (!flags.process.in_process) {
-    return clean_apart(ProcessFlags::child_arguments("clean"), paths, limit, interrupt_flag());
+    return clean_in_child(ProcessFlags::child_arguments("clean"), paths, limit, interrupt_flag());
   }
-  // As the child of `clean_apart`, this process ends with its parent, and its own children with it.
+  // As the child of `clean_in_child`, this process ends with its parent, and its own children with
+  // it.
   if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   try {
-    return clean_here(flags, paths, progress);
+    return clean_in_process(flags, paths, progress);
   } catch (...) {
     progress.end();  // The message gets a line of its own.
     throw;

@@ -90,9 +90,9 @@ std::string check_list() {
 }
 
 /// Untrusted data may make the child take much memory, or crash it.
-ExitCode inspect_apart(double limit_mib) {
+ExitCode inspect_in_child(double limit_mib) {
   try {
-    return run_command_apart(
+    return run_command_in_child(
         ProcessFlags::child_arguments("inspect"),
         {.doing = "inspecting", .less_memory = " Choose fewer --frames, or raise the limit."},
         limit_mib, interrupt_flag());
@@ -111,7 +111,7 @@ ExitCode inspect_command(const InspectFlags& flags) {
   }
   check_not_both(flags.path);
   const double limit = flags.process.memory_limit_mib();
-  if (!flags.process.in_process) return inspect_apart(limit);
+  if (!flags.process.in_process) return inspect_in_child(limit);
   if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   const InspectionReport report =

@@ -28,7 +28,7 @@ std::string red(const std::string& text) {
   return coloured(text, TerminalColour::kBad, stderr);
 }
 
-void tell_problems(const RunSummary& summary, bool collect) {
+void report_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     print_error(red("raymoval: cell failed:") + " " + failure);
   }
@@ -134,7 +134,7 @@ ExitCode run(const RunFlags& flags) {
   if (!summary) return ExitCode::kWorse;
   progress.end();
   if (flags.cell.empty()) print(end_of_run(flags.out));
-  tell_problems(*summary, options.collect);
+  report_problems(*summary, options.collect);
   const bool whole = !options.collect || summary->missing.empty();
   return summary->good() && whole ? ExitCode::kDone : ExitCode::kWorse;
 }

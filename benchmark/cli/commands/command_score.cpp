@@ -311,7 +311,7 @@ ExitCode score(const ScoreFlags& flags) {
       flags.truth_map.empty()
           ? open_sequence(flags.sequence, options, {threads, &progress, &interrupt_flag()})
           : open_truth_map(flags.truth_map, options);
-  tell_opening(sequence, progress);
+  report_opening(sequence, progress);
   const std::string predictions =
       flags.predictions.empty() ? "" : prediction_folder(flags.predictions, sequence.name).string();
   check_json_is_no_input(flags, predictions, sequence);

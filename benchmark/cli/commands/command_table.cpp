@@ -60,7 +60,7 @@ void check_flags(const TableFlags& flags) {
 
 /// The papers' rows. Prints the sequences for which no row is comparable with the run's.
 /// @throws UsageError if there is no other sequence
-std::vector<OutsideColumn> papers_beside(const RunResults& results) {
+std::vector<OutsideColumn> matching_published_rows(const RunResults& results) {
   std::vector<OutsideColumn> papers = published_columns();
   const std::vector<std::string> reasons = set_beside(papers, results);
   if (reasons.size() == results.sequences.size()) {
@@ -94,7 +94,7 @@ TableOptions options_of(const TableFlags& flags, const RunResults& results) {
   if (is_among(options.what, "all")) options.what.clear();
   if (!flags.sort.empty()) options.sort = flags.sort;
   options.disagreements = flags.disagreements;
-  if (flags.with_published) options.outside = papers_beside(results);
+  if (flags.with_published) options.outside = matching_published_rows(results);
   check_rates(options, results);
   return options;
 }

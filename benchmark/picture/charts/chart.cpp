@@ -43,7 +43,7 @@ std::string points_text(const std::vector<ChartPoint>& points) {
 
 }  // namespace
 
-SeriesLook series_look(std::size_t index, std::size_t count) {
+SeriesStyle series_style(std::size_t index, std::size_t count) {
   return {distinct_colours(count)[index], static_cast<int>(index % 5)};
 }
 
@@ -92,7 +92,7 @@ void Chart::rectangle(double x, double y, double width, double height, const Col
       xml_escaped(hint));
 }
 
-void Chart::marker(const ChartPoint& at, const SeriesLook& look, const std::string& hint) {
+void Chart::marker(const ChartPoint& at, const SeriesStyle& look, const std::string& hint) {
   static const std::vector<ChartPoint> kCorners[] = {
       {},
       {{-4.4, -4.4}, {4.4, -4.4}, {4.4, 4.4}, {-4.4, 4.4}},

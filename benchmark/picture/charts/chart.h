@@ -12,12 +12,12 @@ namespace raymoval {
 
 /// The look of a series of points. Series differ in both colour and shape, so that one of them is
 /// enough to distinguish them.
-struct SeriesLook {
+struct SeriesStyle {
   Colour colour;
   int shape = 0;  ///< 0 .. 4: circle, square, diamond, triangle up, triangle down.
 };
 /// @param count of the series in the chart, each of which has a colour of its own
-SeriesLook series_look(std::size_t index, std::size_t count);
+SeriesStyle series_style(std::size_t index, std::size_t count);
 
 /// The charts' style as CSS. The colours of text, lines and ground are the custom properties
 /// --chart-ink, --chart-soft, --chart-line and --chart-ground. They follow prefers-color-scheme; a
@@ -50,7 +50,7 @@ class Chart {
   void rectangle(double x, double y, double width, double height, const Colour& colour,
                  const std::string& hint);
   /// Draws a marker of about 10 pixels. @param hint is shown when a pointer rests on it
-  void marker(const ChartPoint& at, const SeriesLook& look, const std::string& hint);
+  void marker(const ChartPoint& at, const SeriesStyle& look, const std::string& hint);
   /// @param width at least; it grows with the title
   void set_size(double width, double height);
   /// Adds a line below the chart, after its size is set.

@@ -61,7 +61,7 @@ std::vector<ChartSeries> chart_series(const RunResults& results) {
     if (known == series.end()) known = series.insert(known, {name, {}, {}});
     known->cells.push_back(cell);
   }
-  for (std::size_t i = 0; i < series.size(); ++i) series[i].look = series_look(i, series.size());
+  for (std::size_t i = 0; i < series.size(); ++i) series[i].look = series_style(i, series.size());
   return series;
 }
 

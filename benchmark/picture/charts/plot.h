@@ -15,7 +15,7 @@ namespace raymoval {
 /// A series with one look in a chart: a method, or all points of a sweep.
 struct ChartSeries {
   std::string name;
-  SeriesLook look;
+  SeriesStyle look;
   std::vector<std::string> cells;  ///< Names in the run, in its order.
 };
 

@@ -33,7 +33,7 @@ Chart reliability_chart(const RunResults& results) {
   chart.line({plot.at(0.0, 0.0), plot.at(1.0, 1.0)}, "iso");
   std::vector<ChartSeries> series;
   for (const MethodReliability& method : results.reliability) {
-    const SeriesLook look = series_look(series.size(), results.reliability.size());
+    const SeriesStyle look = series_style(series.size(), results.reliability.size());
     series.push_back({method.cell, look, {method.cell}});
     plot.draw_series(series.back(), bin_points(method), true);
   }

@@ -57,14 +57,14 @@ std::vector<Curve> curves_of(const RunResults& results, const NumberSweep& sweep
                                 length_text(value) + ": " + rate + " " + rate_text(rate, at)});
   };
   for (const std::string& sequence : results.sequences) {
-    curves.push_back({{sequence, series_look(curves.size() + 1, count + 1), {}}, {}});
+    curves.push_back({{sequence, series_style(curves.size() + 1, count + 1), {}}, {}});
     for (const auto& [value, cell] : sweep.points) {
       const auto there = results.rate(sequence, cell, protocol, rate);
       if (there) add_point(value, *there);
     }
   }
   if (count < 2) return curves;
-  curves.push_back({{"mean", series_look(0, count + 1), {}}, {}});
+  curves.push_back({{"mean", series_style(0, count + 1), {}}, {}});
   for (const auto& [value, cell] : sweep.points) {
     const Mean mean = mean_of(results.values(cell, protocol, rate));
     if (mean.value && mean.segments == count) add_point(value, *mean.value);

@@ -12,12 +12,12 @@
 namespace raymoval {
 namespace {
 
-struct OutcomeLook {
+struct OutcomeStyle {
   Colour colour;
   const char* name;
 };
 /// In the order of `Outcome`.
-constexpr std::array<OutcomeLook, kOutcomes> kLooks = {
+constexpr std::array<OutcomeStyle, kOutcomes> kOutcomeStyles = {
     {{verdict_colours::kKeptStatic, "static, kept"},
      {verdict_colours::kTruePositive, "moving, removed"},
      {verdict_colours::kFalsePositive, "static, removed"},
@@ -37,11 +37,11 @@ Colour static_grey(std::uint32_t points) {
 }  // namespace
 
 Colour outcome_colour(Outcome outcome) {
-  return kLooks[static_cast<std::size_t>(outcome)].colour;
+  return kOutcomeStyles[static_cast<std::size_t>(outcome)].colour;
 }
 
 const char* outcome_name(Outcome outcome) {
-  return kLooks[static_cast<std::size_t>(outcome)].name;
+  return kOutcomeStyles[static_cast<std::size_t>(outcome)].name;
 }
 
 void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,

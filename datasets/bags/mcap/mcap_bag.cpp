@@ -227,7 +227,7 @@ class McapReader {
     const std::uint64_t number = contents_.chunks.size();
     const McapChunkPlace place = file_.chunk(record);
     contents_.chunks.push_back(record.begin);
-    const Unpacked unpacked = file_.unpack(place);
+    const Decompressed unpacked = file_.unpack(place);
     const std::string cut = for_each_record(unpacked.bytes, [&](const McapRecord& inner) {
       if (inner.op == McapOp::kMessage) {
         add_message(inner.content, place.where, {number, inner.begin});
@@ -295,8 +295,8 @@ std::string McapBag::message_head(std::size_t topic, std::size_t index, std::siz
         ", where there is no such message; the file is damaged. `mcap recover` rewrites it.");
   }
   bytes.erase(0, kMcapMessageHeadSize);
-  bytes = unpacked_if_packed(std::move(bytes), topics()[topic].encoding == MessageEncoding::kCdr,
-                             where);
+  bytes = decompressed_if_needed(std::move(bytes),
+                                 topics()[topic].encoding == MessageEncoding::kCdr, where);
   if (bytes.size() > most) bytes.resize(most);
   return bytes;
 }
@@ -305,15 +305,15 @@ std::string McapBag::in_file(const McapPlace& record, std::size_t most) const {
   const std::uint64_t head = std::min<std::uint64_t>(most, record.size) + kMcapMessageHeadSize;
   std::string bytes = file_.content(record, 0, head);
   // A message that is compressed by itself is not read in part.
-  const bool is_packed = bytes.size() > kMcapMessageHeadSize &&
-                         is_zstd(std::string_view(bytes).substr(kMcapMessageHeadSize));
-  return is_packed ? file_.content(record) : bytes;
+  const bool is_compressed = bytes.size() > kMcapMessageHeadSize &&
+                             is_zstd(std::string_view(bytes).substr(kMcapMessageHeadSize));
+  return is_compressed ? file_.content(record) : bytes;
 }
 
 std::string McapBag::in_chunk(const McapChunkPlace& chunk, const McapMessagePlace& place) const {
   std::string problem;
   const ChunkStore::Chunk kept = chunks_.get(place.chunk, [&] {
-    Unpacked all = file_.unpack(chunk);
+    Decompressed all = file_.unpack(chunk);
     problem = std::move(all.problem);
     return std::move(all.bytes);
   });

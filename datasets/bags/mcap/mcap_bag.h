@@ -10,8 +10,8 @@
 
 #include "datasets/bags/bag.h"
 #include "datasets/bags/bag_index.h"
+#include "datasets/bags/decompress.h"
 #include "datasets/bags/mcap/mcap_file.h"
-#include "datasets/bags/unpack.h"
 
 namespace raymoval {
 

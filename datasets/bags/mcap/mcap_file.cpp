@@ -107,10 +107,10 @@ constexpr std::uint64_t kChunkHeadSize = 8 + 8 + 8 + 4 + 4 + 64 + 8;
                   " bytes; at most 1 GiB is expected, so the file looks damaged. Copy it again.");
 }
 
-Unpacked unpack_by(const std::string& compression, std::string packed, std::uint64_t stated,
-                   const std::string& where) {
-  if (compression == "zstd") return unpack_zstd(packed, stated, where);
-  if (compression == "lz4") return unpack_lz4(packed, stated, where);
+Decompressed decompress_by(const std::string& compression, std::string packed, std::uint64_t stated,
+                           const std::string& where) {
+  if (compression == "zstd") return decompress_zstd(packed, stated, where);
+  if (compression == "lz4") return decompress_lz4(packed, stated, where);
   std::string problem;
   if (packed.size() != stated) {
     problem = "it has " + grouped_text(packed.size()) + " of the " + grouped_text(stated) +
@@ -190,16 +190,16 @@ McapChunkPlace McapFile::chunk(const McapPlace& record) const {
   return chunk;
 }
 
-Unpacked McapFile::unpack(const McapChunkPlace& chunk) const {
+Decompressed McapFile::unpack(const McapChunkPlace& chunk) const {
   const McapChunkHead& head = chunk.head;
   if (head.packed_size > kMostContent) throw_too_large(chunk.where, head.packed_size);
   std::string packed = bytes_.read_up_to(chunk.packed, head.packed_size);
-  const bool is_cut = packed.size() < head.packed_size;
-  check_unpacked_size(head.packed_size, head.unpacked_size, chunk.where);
+  const bool is_truncated = packed.size() < head.packed_size;
+  check_decompressed_size(head.packed_size, head.unpacked_size, chunk.where);
   // The limit is for the bytes that are there: missing bytes cannot be decompressed.
-  const std::uint64_t most = std::min(head.unpacked_size, most_unpacked_size(packed.size()));
-  Unpacked unpacked = unpack_by(head.compression, std::move(packed), most, chunk.where);
-  if (is_cut) unpacked.problem = "the file ends in the middle of it";
+  const std::uint64_t most = std::min(head.unpacked_size, most_decompressed_size(packed.size()));
+  Decompressed unpacked = decompress_by(head.compression, std::move(packed), most, chunk.where);
+  if (is_truncated) unpacked.problem = "the file ends in the middle of it";
   if (unpacked.problem.empty() && head.crc != 0 && crc32_of(unpacked.bytes) != head.crc) {
     return {"", "its bytes do not have the checksum that is stored with it"};
   }

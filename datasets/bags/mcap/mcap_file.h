@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "datasets/bags/bag_file.h"
-#include "datasets/bags/unpack.h"
+#include "datasets/bags/decompress.h"
 
 namespace raymoval {
 
@@ -147,8 +147,8 @@ class McapFile {
   /// @throws DataError if its head is damaged or its compression is unknown
   [[nodiscard]] McapChunkPlace chunk(const McapPlace& record) const;
   /// The records in a chunk. The result has the records that can be decompressed, and the problem.
-  /// @throws DataError if the stated size is beyond the limit (see `check_unpacked_size`)
-  [[nodiscard]] Unpacked unpack(const McapChunkPlace& chunk) const;
+  /// @throws DataError if the stated size is beyond the limit (see `check_decompressed_size`)
+  [[nodiscard]] Decompressed unpack(const McapChunkPlace& chunk) const;
 
   /// "drive.mcap: byte 4,117: chunk", to begin messages.
   [[nodiscard]] std::string where(const McapPlace& record) const;

@@ -197,13 +197,13 @@ class Ros1Reader {
   /// Takes the messages of a chunk from the chunk itself.
   void walk_chunk(const Ros1Chunk& chunk) {
     const std::string where = file_.place(chunk.begin) + ": a chunk";
-    const bool is_packed = chunk.compression != Ros1Compression::kNone;
-    const Unpacked unpacked = is_packed ? unpack_chunk(file_, chunk) : Unpacked{};
+    const bool is_compressed = chunk.compression != Ros1Compression::kNone;
+    const Decompressed unpacked = is_compressed ? decompress_chunk(file_, chunk) : Decompressed{};
     contents_.chunks.push_back(chunk);
     std::string problem;
     const std::uint64_t count =
-        walk_bytes(is_packed ? Ros1Bytes(unpacked.bytes, where)
-                             : Ros1Bytes(file_, chunk.data_begin, chunk.packed),
+        walk_bytes(is_compressed ? Ros1Bytes(unpacked.bytes, where)
+                                 : Ros1Bytes(file_, chunk.data_begin, chunk.packed),
                    problem);
     if (!unpacked.problem.empty()) problem = unpacked.problem;
     if (problem.empty() && !chunk.cut) return;
@@ -276,7 +276,7 @@ std::string Ros1Bag::read_message(std::size_t topic, std::size_t index, std::siz
   }
   const std::string where = file_.place(chunk.begin) + ": a chunk";
   const ChunkStore::Chunk unpacked = unpacked_.get(chunk_of(place), [&] {
-    Unpacked all = unpack_chunk(file_, chunk);
+    Decompressed all = decompress_chunk(file_, chunk);
     if (!all.problem.empty()) {
       notes_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") + " (" + all.problem +
                  ").");

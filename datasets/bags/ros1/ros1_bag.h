@@ -11,8 +11,8 @@
 #include "datasets/bags/bag.h"
 #include "datasets/bags/bag_file.h"
 #include "datasets/bags/bag_index.h"
+#include "datasets/bags/decompress.h"
 #include "datasets/bags/ros1/ros1_file.h"
-#include "datasets/bags/unpack.h"
 
 namespace raymoval {
 

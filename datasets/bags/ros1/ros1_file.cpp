@@ -20,8 +20,8 @@ constexpr std::uint64_t kFirstPiece = 128;
 
 constexpr std::array<std::string_view, 3> kCompressionNames = {"none", "bz2", "lz4"};
 
-[[noreturn]] void throw_cut(const std::string& place, std::uint64_t wanted, std::uint64_t there,
-                            const char* what) {
+[[noreturn]] void throw_truncated(const std::string& place, std::uint64_t wanted,
+                                  std::uint64_t there, const char* what) {
   throw DataError(place + ": " + what + " takes " + grouped_text(wanted) + " bytes, but " +
                   grouped_text(there) + " are left; the file is truncated or damaged there.");
 }
@@ -105,7 +105,7 @@ std::string Ros1Bytes::place(std::uint64_t offset) const {
 Ros1Record read_record(const Ros1Bytes& bytes, std::uint64_t offset) {
   const std::uint64_t left = bytes.size() - std::min(offset, bytes.size());
   const std::string first = bytes.read(offset, std::min(left, kFirstPiece));
-  if (left < kLength) throw_cut(bytes.place(offset), kLength, left, "the length of a record");
+  if (left < kLength) throw_truncated(bytes.place(offset), kLength, left, "the length of a record");
   const auto header_size = little_endian<std::uint32_t>(first, 0);
   if (header_size > kLongestHeader) {
     throw DataError(bytes.place(offset) + ": a record's header should have " +
@@ -113,7 +113,7 @@ Ros1Record read_record(const Ros1Bytes& bytes, std::uint64_t offset) {
                     " bytes, more than any has; the file looks damaged there.");
   }
   const std::uint64_t wanted = 2 * kLength + header_size;
-  if (wanted > left) throw_cut(bytes.place(offset), wanted, left, "the header of a record");
+  if (wanted > left) throw_truncated(bytes.place(offset), wanted, left, "the header of a record");
   const std::string all = wanted <= first.size() ? first : bytes.read(offset, wanted);
   Ros1Record record;
   record.begin = offset;
@@ -126,8 +126,8 @@ Ros1Record read_record(const Ros1Bytes& bytes, std::uint64_t offset) {
 
 void check_data_is_there(const Ros1Bytes& bytes, const Ros1Record& record) {
   if (record.end() <= bytes.size()) return;
-  throw_cut(bytes.place(record.data_begin), record.data_size, bytes.size() - record.data_begin,
-            "the data of a record");
+  throw_truncated(bytes.place(record.data_begin), record.data_size,
+                  bytes.size() - record.data_begin, "the data of a record");
 }
 
 std::optional<Ros1Record> next_in_chunk(const Ros1Bytes& bytes, std::uint64_t& at) {
@@ -177,7 +177,7 @@ Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record) {
   chunk.packed =
       chunk.cut ? static_cast<std::uint32_t>(file.size() - record.data_begin) : record.data_size;
   if (chunk.compression != Ros1Compression::kNone) {
-    check_unpacked_size(record.data_size, chunk.size, record.where + ": a chunk");
+    check_decompressed_size(record.data_size, chunk.size, record.where + ": a chunk");
   } else if (chunk.size != record.data_size) {
     throw DataError(record.where + ": an uncompressed chunk has " + grouped_text(record.data_size) +
                     " bytes, but should have " + grouped_text(chunk.size) +
@@ -186,16 +186,16 @@ Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record) {
   return chunk;
 }
 
-Unpacked unpack_chunk(const BagFile& file, const Ros1Chunk& chunk) {
+Decompressed decompress_chunk(const BagFile& file, const Ros1Chunk& chunk) {
   const std::string packed = file.read(chunk.data_begin, chunk.packed);
   // The limit of the whole chunk was checked with its head; a truncated chunk has fewer bytes and a
   // lower limit.
   const std::uint64_t most =
-      chunk.cut ? std::min<std::uint64_t>(chunk.size, most_unpacked_size(packed.size()))
+      chunk.cut ? std::min<std::uint64_t>(chunk.size, most_decompressed_size(packed.size()))
                 : chunk.size;
   const std::string where = file.place(chunk.begin) + ": a chunk";
-  return chunk.compression == Ros1Compression::kBz2 ? unpack_bz2(packed, most, where)
-                                                    : unpack_lz4(packed, most, where);
+  return chunk.compression == Ros1Compression::kBz2 ? decompress_bz2(packed, most, where)
+                                                    : decompress_lz4(packed, most, where);
 }
 
 }  // namespace raymoval

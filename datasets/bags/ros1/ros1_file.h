@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "datasets/bags/bag_file.h"
-#include "datasets/bags/unpack.h"
+#include "datasets/bags/decompress.h"
 #include "datasets/trajectories/trajectory.h"
 
 namespace raymoval {
@@ -123,11 +123,12 @@ struct Ros1Chunk {
 };
 
 /// The chunk of `record`, which may be truncated.
-/// @throws DataError for a damaged header, a size beyond the limit of `check_unpacked_size`, and an
+/// @throws DataError for a damaged header, a size beyond the limit of `check_decompressed_size`,
+/// and an
 ///   unknown compression
 Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record);
 
 /// Decompresses a chunk as far as possible. @throws UnreadableError
-Unpacked unpack_chunk(const BagFile& file, const Ros1Chunk& chunk);
+Decompressed decompress_chunk(const BagFile& file, const Ros1Chunk& chunk);
 
 }  // namespace raymoval

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/bags/unpack.h"
+#include "datasets/bags/decompress.h"
 
 namespace raymoval {
 namespace {
@@ -44,7 +44,7 @@ std::string uri_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, bool is_cut)
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, bool is_truncated)
     : path_(path), steps_(kStepsOfSchema) {
   sqlite3* opened = nullptr;
   const int code =
@@ -65,7 +65,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, bool is_cut)
   sqlite3_limit(handle(), SQLITE_LIMIT_LENGTH, static_cast<int>(most));
   run("PRAGMA cell_size_check=ON");
   // With this, the library opens a truncated file. Nothing is written in any case.
-  if (is_cut) run("PRAGMA writable_schema=ON");
+  if (is_truncated) run("PRAGMA writable_schema=ON");
 }
 
 void SqliteDatabase::run(const std::string& sql) const {
@@ -161,7 +161,7 @@ void check_nothing_beside(const std::filesystem::path& path) {
 }
 
 /// Reads the head of a database. @return whether the file has fewer pages than the head states
-bool is_cut(const BagFile& file, DamageNotes& damage) {
+bool is_truncated(const BagFile& file, DamageNotes& damage) {
   const std::string head = file.read_up_to(0, 100);
   if (!head.starts_with(kMagic) || head.size() < 100) {
     throw DataError(file.path().string() +
@@ -181,7 +181,7 @@ bool is_cut(const BagFile& file, DamageNotes& damage) {
 }  // namespace
 
 Db3Bag::Db3Bag(const std::filesystem::path& path)
-    : file_((check_nothing_beside(path), path)), database_(path, is_cut(file_, damage_)) {
+    : file_((check_nothing_beside(path), path)), database_(path, is_truncated(file_, damage_)) {
   check_tables();
   database_.allow_steps(10'000'000 + 4 * static_cast<std::int64_t>(file_.size()));
   read_topics();
@@ -269,8 +269,8 @@ std::string Db3Bag::stored(std::int64_t row, std::size_t most) const {
 
 std::string Db3Bag::message(std::size_t topic, std::size_t index) const {
   const auto row = static_cast<std::int64_t>(table_.at(topic, index).place);
-  return unpacked_if_packed(stored(row), topics()[topic].encoding == MessageEncoding::kCdr,
-                            place(row));
+  return decompressed_if_needed(stored(row), topics()[topic].encoding == MessageEncoding::kCdr,
+                                place(row));
 }
 
 std::string Db3Bag::message_head(std::size_t topic, std::size_t index, std::size_t most) const {

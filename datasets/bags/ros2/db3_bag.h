@@ -24,8 +24,8 @@ namespace raymoval {
 class SqliteDatabase {
  public:
   /// Opens a file to read it, and neither locks nor changes it.
-  /// @param is_cut whether the file has fewer pages than its head states
-  SqliteDatabase(const std::filesystem::path& path, bool is_cut);
+  /// @param is_truncated whether the file has fewer pages than its head states
+  SqliteDatabase(const std::filesystem::path& path, bool is_truncated);
   SqliteDatabase(const SqliteDatabase&) = delete;
 
   [[nodiscard]] sqlite3* handle() const { return handle_.get(); }

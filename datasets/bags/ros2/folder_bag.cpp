@@ -13,7 +13,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "datasets/bags/unpack.h"
+#include "datasets/bags/decompress.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
 
@@ -100,7 +100,7 @@ void add_file(Ros2Metadata& metadata, const YAML::Node& node, std::set<fs::path>
 }
 
 /// @throws UsageError for a compression that is not supported
-void check_packing(const YAML::Node& information, const fs::path& path) {
+void check_compression(const YAML::Node& information, const fs::path& path) {
   const std::string mode = lower(value_of(information, "compression_mode"));
   const std::string format = lower(value_of(information, "compression_format"));
   if (mode.empty() || mode == "none" || mode == "~" || mode == "null") return;
@@ -153,7 +153,7 @@ Ros2Metadata parsed_metadata(const fs::path& path) {
   }
   metadata.version = parse_number<int>(value_of(information, "version")).value_or(0);
   check_version(information, metadata.version, path);
-  check_packing(information, path);
+  check_compression(information, path);
   metadata.messages = count_of(information, path);
   std::set<fs::path> known;
   for (const YAML::Node& file : information["relative_file_paths"]) {

@@ -98,7 +98,7 @@ struct CloudFormat {
   /// Null if the format is only read.
   std::unique_ptr<RecordEncoder> (*encoder)(const std::filesystem::path& path,
                                             const RecordWriting& writing) = nullptr;
-  /// As `what_is_lost`; null if the format is only read.
+  /// As `format_losses`; null if the format is only read.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
   /// The layout of the records of a file without reading its points; null if that is no faster.
   RecordLayout (*read_layout)(const std::filesystem::path& path,

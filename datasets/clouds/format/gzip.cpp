@@ -14,7 +14,7 @@ namespace raymoval {
 namespace {
 
 /// Limit of the decompressed size. Deflate cannot give more than 1,032 times its bytes.
-std::uint64_t most_unpacked(std::uint64_t packed) {
+std::uint64_t most_decompressed(std::uint64_t packed) {
   return std::min<std::uint64_t>(std::uint64_t{1} << 30, packed * 1000 + (1 << 20));
 }
 
@@ -30,7 +30,7 @@ class Inflation {
 
   /// Decompresses up to the end of a stream and appends the result to `text`.
   /// @return false if there is more than `most` in all
-  bool unpack_into(std::string& text, std::uint64_t most) {
+  bool decompress_into(std::string& text, std::uint64_t most) {
     for (int state = Z_OK; state != Z_STREAM_END;) {
       if (filled_ > most) return false;
       if (filled_ == text.size()) grow(text, most);
@@ -79,20 +79,20 @@ class Inflation {
 
 }  // namespace
 
-void check_unpacked(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
-  if (unpacked <= most_unpacked(packed)) return;
-  throw DataError(where + ": decompresses to more than " + grouped_text(most_unpacked(packed)) +
+void check_decompressed(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
+  if (unpacked <= most_decompressed(packed)) return;
+  throw DataError(where + ": decompresses to more than " + grouped_text(most_decompressed(packed)) +
                   " bytes, the limit for " + grouped_text(packed) +
                   " compressed ones (1,000 times as many and 1 MiB, at most 1 GiB). Decompress it "
                   "yourself if you trust it.");
 }
 
-std::string unpack_gzip(std::string_view packed, const std::string& where) {
-  const std::uint64_t most = most_unpacked(packed.size());
+std::string decompress_gzip(std::string_view packed, const std::string& where) {
+  const std::uint64_t most = most_decompressed(packed.size());
   std::string text;
   Inflation inflation(packed, where);
   for (;;) {
-    if (!inflation.unpack_into(text, most)) check_unpacked(packed.size(), most + 1, where);
+    if (!inflation.decompress_into(text, most)) check_decompressed(packed.size(), most + 1, where);
     const std::string_view rest = inflation.rest();
     if (rest.find_first_not_of('\0') == std::string_view::npos) break;
     if (!rest.starts_with("\x1F\x8B")) {

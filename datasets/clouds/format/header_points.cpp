@@ -209,8 +209,8 @@ StoredPoints binary_points(const CloudHeader& header, std::string_view body,
 }
 
 /// Decompresses the LZF body of a binary_compressed PCD file after checking its stated sizes.
-std::string unpack_lzf_block(std::string_view body, std::uint64_t expected_bytes,
-                             const std::filesystem::path& path) {
+std::string decompress_lzf_block(std::string_view body, std::uint64_t expected_bytes,
+                                 const std::filesystem::path& path) {
   // A back reference of 3 bytes gives at most 264.
   constexpr std::uint64_t kMostGain = 88;
   std::array<std::uint32_t, 2> sizes{};
@@ -248,7 +248,7 @@ StoredPoints compressed_points(const CloudHeader& header, std::string_view body,
     stored.columns.push_back({field, bytes, field.bytes(), false});
     bytes += field.bytes() * header.points;
   }
-  stored.unpacked = std::make_shared<const std::string>(unpack_lzf_block(body, bytes, path));
+  stored.unpacked = std::make_shared<const std::string>(decompress_lzf_block(body, bytes, path));
   stored.bytes = *stored.unpacked;
   return stored;
 }

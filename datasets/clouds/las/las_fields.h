@@ -107,7 +107,7 @@ std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
 /// As `shown_intensity`.
 std::optional<ShownIntensity> shown_in_las(const RecordLayout& layout);
 
-/// As `what_is_lost`.
+/// As `format_losses`.
 std::vector<std::string> lost_in_las(const RecordLayout& layout);
 
 }  // namespace raymoval

@@ -173,14 +173,14 @@ class ZipArchive {
 
   /// The content of the file `name`.
   /// @throws DataError if it is damaged (its checksum is compared), encrypted, or compressed in a
-  ///   way that is not supported; as `check_unpacked`
+  ///   way that is not supported; as `check_decompressed`
   [[nodiscard]] std::string content(const std::string& name) const {
     zip_stat_t about;
     if (zip_stat(archive_, name.c_str(), ZIP_FL_ENC_RAW, &about) != 0) fail(name);
     if (about.encryption_method != ZIP_EM_NONE) {
       throw DataError(where_ + ": " + name + " is encrypted. Save it without a password.");
     }
-    check_unpacked(about.comp_size, about.size, where_ + ": " + name);
+    check_decompressed(about.comp_size, about.size, where_ + ": " + name);
     const auto close = [](zip_file_t* file) { zip_fclose(file); };
     const std::unique_ptr<zip_file_t, decltype(close)> file(
         zip_fopen_index(archive_, about.index, 0));

@@ -38,10 +38,31 @@ std::string place_text(const Eigen::Vector3d& place) {
   return fixed_text(place.x(), 2) + "," + fixed_text(place.y(), 2) + "," + fixed_text(place.z(), 2);
 }
 
-/// @param given what a user says already @param right the origin in the frame of the stored points
-std::string remedy_of(const Eigen::Vector3d& given, const Eigen::Vector3d& right) {
+/// A frame of tf whose origin is where the beams start, and that origin.
+using NamedPlace = std::pair<std::string, Eigen::Vector3d>;
+
+/// The nearest frame of tf within `kNear` of `place`.
+std::optional<NamedPlace> frame_at(const Samples& samples, const Eigen::Vector3d& place) {
+  if (!samples.sequence().fixed_frames) return std::nullopt;
+  std::optional<NamedPlace> nearest;
+  double least = kNear;
+  for (const auto& [name, origin] : samples.sequence().fixed_frames()) {
+    const double distance = (origin - place).norm();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = {name, origin};
+  }
+  return nearest;
+}
+
+/// @param given the user's origin @param right the origin in the frame of the stored points
+std::string remedy_of(const Samples& samples, const Eigen::Vector3d& given,
+                      const Eigen::Vector3d& right) {
   if (right.norm() < kNear && !given.isZero()) return "Leave --sensor-origin out.";
-  return "Use --sensor-origin " + place_text(right) + ".";
+  const auto frame = frame_at(samples, right);
+  if (!frame) return "Use --sensor-origin " + place_text(right) + ".";
+  return "Use --sensor-origin " + place_text(frame->second) + ", the origin of frame '" +
+         frame->first + "' in tf.";
 }
 
 /// The field that names the sensor of a point; empty if there is none.
@@ -136,7 +157,7 @@ std::vector<Finding> look_for_ray_origin(Samples& samples) {
   return {{.where = samples.all_frames(),
            .what = "scan lines show that the beams start at (" + place_text(at) +
                    ") m and not at the origin of the points' frame",
-           .remedy = remedy_of(given, given + at)}};
+           .remedy = remedy_of(samples, given, given + at)}};
 }
 
 std::vector<Finding> look_for_merged(Samples& samples) {

@@ -49,7 +49,7 @@ std::vector<Finding> look_for_other_sensor(Samples& samples) {
   constexpr double kMargin = 2.0 * kDegree, kShare = 0.02;
   const SensorModel& named = samples.sequence().scans->sensor();
   if (named.is_estimated() || !pose_verdict(samples).check.empty()) return {};
-  const SensorModel& seen = samples.seen_sensor();
+  const SensorModel& seen = samples.estimated_sensor();
   const double out = share_out_of_view(samples, named, kMargin);
   samples.measures.emplace_back("azimuth_step_deg", seen.azimuth_step / kDegree);
   samples.measures.emplace_back("elevation_step_deg", seen.elevation_step / kDegree);
@@ -79,7 +79,7 @@ std::vector<Finding> look_for_other_sensor(Samples& samples) {
 std::string sensor_text(const Samples& samples) {
   const SensorModel& sensor = samples.sequence().scans->sensor();
   if (sensor.is_estimated()) return sensor.name + ": " + sensor.basis;
-  return sensor.name + "; the scans show " + samples.seen_sensor().basis;
+  return sensor.name + "; the scans show " + samples.estimated_sensor().basis;
 }
 
 std::vector<Check> sensor_model_checks() {
@@ -171,7 +171,7 @@ std::vector<Finding> look_for_ego(Samples& samples) {
   const EgoEstimate estimate = estimate_ego(
       scans,
       [&](std::size_t k) -> const std::vector<Surfel>& { return samples.surfels(apart[k]); });
-  if (!estimate.can_tell()) return {};
+  if (!estimate.has_enough_motion()) return {};
   samples.measures.emplace_back("steady_cells", static_cast<double>(estimate.steady));
   samples.measures.emplace_back("steady_cells_at_sensor", static_cast<double>(estimate.own.size()));
   if (!estimate.found()) return {};

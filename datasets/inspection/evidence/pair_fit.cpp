@@ -99,7 +99,7 @@ double PairFit::mean_best() const {
   return best_.empty() ? 0.0 : sum / static_cast<double>(best_.size());
 }
 
-bool PairFit::says_something() const {
+bool PairFit::is_informative() const {
   return std::any_of(best_.begin(), best_.end(), [](double b) { return b >= kTooLittle; });
 }
 
@@ -112,8 +112,8 @@ bool PairFit::contradicts(std::size_t k, const Pose& motion) const {
   return held_part(shift, surfels, kFewestHolding).norm() > kOtherShift + kSlope * shift.norm();
 }
 
-std::vector<SeenMotion> PairFit::seen_motions() const {
-  std::vector<SeenMotion> seen;
+std::vector<RegisteredMotion> PairFit::registered_motions() const {
+  std::vector<RegisteredMotion> seen;
   for (std::size_t k = 0; k < best_.size(); ++k) {
     if (best_[k] >= kTooLittle) seen.push_back({samples_.pairs()[k], motions_[k]});
   }
@@ -154,10 +154,10 @@ std::string rounded_text(double value, double step) {
 
 }  // namespace
 
-bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>& seen) {
+bool turns_as_much(const std::vector<Pose>& poses, const std::vector<RegisteredMotion>& seen) {
   constexpr double kSame = 0.02;  // radians
   std::size_t same = 0;
-  for (const SeenMotion& one : seen) {
+  for (const RegisteredMotion& one : seen) {
     const double given = turn_vector(given_motion(poses, one.pair)).norm();
     if (std::abs(given - turn_vector(one.motion).norm()) < kSame) ++same;
   }
@@ -168,10 +168,10 @@ namespace {
 
 /// R_body_sensor for a sensor at `position` on the body: the best about z, and the best of all.
 std::array<Eigen::Matrix3d, 2> turns_on_body(const std::vector<Pose>& poses,
-                                             const std::vector<SeenMotion>& seen,
+                                             const std::vector<RegisteredMotion>& seen,
                                              const Eigen::Vector3d& position) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const SeenMotion& one : seen) {
+  for (const RegisteredMotion& one : seen) {
     const Pose given = given_motion(poses, one.pair);
     const Eigen::Vector3d way = given * position - position;  // Of the sensor, in the body's frame.
     moments += way * one.motion.translation().transpose();
@@ -188,11 +188,12 @@ std::array<Eigen::Matrix3d, 2> turns_on_body(const std::vector<Pose>& poses,
 
 /// Least squares of (R_given - I) t = R_body_sensor t_seen - t_given.
 Eigen::Vector3d position_on_body(const std::vector<Pose>& poses,
-                                 const std::vector<SeenMotion>& seen, const Eigen::Matrix3d& turn) {
+                                 const std::vector<RegisteredMotion>& seen,
+                                 const Eigen::Matrix3d& turn) {
   constexpr double kLeastTurn = 0.2;  // radians, all pairs together: else noise decides
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sides = Eigen::Vector3d::Zero();
-  for (const SeenMotion& one : seen) {
+  for (const RegisteredMotion& one : seen) {
     const Pose given = given_motion(poses, one.pair);
     const Eigen::Matrix3d part = given.linear() - Eigen::Matrix3d::Identity();
     squares += part.transpose() * part;
@@ -211,11 +212,11 @@ Eigen::Vector3d position_on_body(const std::vector<Pose>& poses,
 }  // namespace
 
 std::vector<Pose> mounts_on_body(const std::vector<Pose>& poses,
-                                 const std::vector<SeenMotion>& seen) {
+                                 const std::vector<RegisteredMotion>& seen) {
   constexpr double kLeast = 1.0;  // metres of way, all pairs together
   constexpr int kRounds = 20;
   double way = 0.0;
-  for (const SeenMotion& one : seen) way += one.motion.translation().norm();
+  for (const RegisteredMotion& one : seen) way += one.motion.translation().norm();
   if (way < kLeast) return {};
   std::vector<Pose> mounts(2, Pose::Identity());
   for (std::size_t k = 0; k < mounts.size(); ++k) {

@@ -20,7 +20,7 @@ inline constexpr double kTooLittle = 0.25;
 inline constexpr double kTurnLever = 10.0;
 
 /// A motion of the sensor from two scans, without their poses.
-struct SeenMotion {
+struct RegisteredMotion {
   ScanPair pair;
   Pose motion = Pose::Identity();  ///< T_from_to.
 };
@@ -52,7 +52,7 @@ class PairFit {
   /// Registers each pair, starting from the motions of `hypotheses` and from guesses.
   void find_best(const std::vector<PoseHypothesis>& hypotheses);
   [[nodiscard]] double mean_best() const;
-  [[nodiscard]] bool says_something() const;
+  [[nodiscard]] bool is_informative() const;
   /// Whether most of the pairs with enough agreement contradict some poses. A narrow view of a road
   /// may have only the ground and a rail, which do not constrain the motion along them.
   template <class PoseOf>
@@ -81,7 +81,7 @@ class PairFit {
     return preferred > 0.0;
   }
   /// The registered motions of the pairs with enough agreement.
-  [[nodiscard]] std::vector<SeenMotion> seen_motions() const;
+  [[nodiscard]] std::vector<RegisteredMotion> registered_motions() const;
 
  private:
   [[nodiscard]] double agreement(const ScanPair& pair, const Pose& motion) const;
@@ -99,7 +99,7 @@ class PairFit {
 
 /// Whether the rotation angles of the sensor are about those of its poses; axes may differ. This
 /// does not depend on the rotation of the sensor on the body.
-bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>& seen);
+bool turns_as_much(const std::vector<Pose>& poses, const std::vector<RegisteredMotion>& seen);
 
 /// T_body_sensor that maps the motion of the poses to the motion of the scans (hand-eye
 /// calibration, Park and Martin 1994, with rotations weighted by `kTurnLever`): first with the best
@@ -107,7 +107,7 @@ bool turns_as_much(const std::vector<Pose>& poses, const std::vector<SeenMotion>
 /// determine. The position is 0 in directions that the rotations of the body do not constrain;
 /// there it changes no motion. Empty if the scans hardly move.
 std::vector<Pose> mounts_on_body(const std::vector<Pose>& poses,
-                                 const std::vector<SeenMotion>& seen);
+                                 const std::vector<RegisteredMotion>& seen);
 
 /// "90 degrees about z", or roll, pitch and yaw.
 std::string turn_text(const Eigen::Matrix3d& turn);

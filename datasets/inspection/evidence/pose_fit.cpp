@@ -128,7 +128,7 @@ Reached best_of(const Samples& samples, const PairFit& fit,
 /// The hypotheses that the sensor is turned on a body whose poses are `poses`, the simplest turn
 /// first.
 std::vector<PoseHypothesis> turned_on_body(const std::vector<Pose>& poses,
-                                           const std::vector<SeenMotion>& seen) {
+                                           const std::vector<RegisteredMotion>& seen) {
   std::vector<PoseHypothesis> all;
   if (!turns_as_much(poses, seen)) return all;
   for (const Pose& mount : mounts_on_body(poses, seen)) {
@@ -149,7 +149,7 @@ std::vector<PoseHypothesis> turned_on_body(const std::vector<Pose>& poses,
 
 /// Poses of a body on which the sensor is turned: as they are given, or misread.
 std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
-                                            const std::vector<SeenMotion>& seen) {
+                                            const std::vector<RegisteredMotion>& seen) {
   const std::optional<Pose>& T_body_sensor = samples.sequence().T_body_sensor;
   const bool of_camera = samples.sequence().T_camera_lidar.has_value();
   std::vector<PoseHypothesis> all = turned_on_body(samples.poses(), seen);
@@ -192,7 +192,7 @@ std::optional<PoseHypothesis> time_hypothesis(Samples& samples) {
 /// a sensor on a body, a time offset); another one is preferred if it is nearly as good.
 Reached best_hypothesis(Samples& samples, const PairFit& fit,
                         std::vector<PoseHypothesis> hypotheses) {
-  const std::vector<SeenMotion> seen = fit.seen_motions();
+  const std::vector<RegisteredMotion> seen = fit.registered_motions();
   std::vector<PoseHypothesis> fitted = body_hypotheses(samples, seen);
   if (auto time = time_hypothesis(samples)) {
     std::erase_if(hypotheses, [](const auto& other) { return other.check == "poses-shifted"; });
@@ -231,12 +231,12 @@ PoseVerdict compare_hypotheses(Samples& samples) {
   double given = fit.share(given_pose);
   samples.measures.emplace_back("agreement", fit.mean_best());
   samples.measures.emplace_back("agreement_of_given_poses", given);
-  if (fit.says_something() && given >= kGood) return {};
+  if (fit.is_informative() && given >= kGood) return {};
 
   const std::vector<PoseHypothesis> hypotheses = pose_hypotheses(samples);
   fit.find_best(hypotheses);
   given = fit.share(given_pose);
-  if (!fit.says_something() || given >= kGood) return {};
+  if (!fit.is_informative() || given >= kGood) return {};
   const auto [best, reached] = best_hypothesis(samples, fit, hypotheses);
   samples.measures.emplace_back("agreement_of_best_hypothesis", reached);
   const std::string now = "the scans fit to " + percent(given) + " under the poses";

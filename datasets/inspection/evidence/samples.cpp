@@ -129,10 +129,10 @@ std::vector<Scan> Samples::some_scans(std::size_t most) const {
   return chosen;
 }
 
-const SensorModel& Samples::seen_sensor() const {
-  if (seen_sensor_) return *seen_sensor_;
-  seen_sensor_ = estimate_sensor_model(some_scans(5));
-  return *seen_sensor_;
+const SensorModel& Samples::estimated_sensor() const {
+  if (estimated_sensor_) return *estimated_sensor_;
+  estimated_sensor_ = estimate_sensor_model(some_scans(5));
+  return *estimated_sensor_;
 }
 
 }  // namespace raymoval::inspection

@@ -58,7 +58,7 @@ class Samples {
   [[nodiscard]] const std::vector<Surfel>& surfels(std::size_t scan) const;
   /// The sensor model estimated from five of the scans, independent of its name. The first call
   /// estimates it.
-  [[nodiscard]] const SensorModel& seen_sensor() const;
+  [[nodiscard]] const SensorModel& estimated_sensor() const;
   [[nodiscard]] const Layout& layout() const { return layout_; }
   /// Whether each scan file has its pose.
   [[nodiscard]] bool has_viewpoints() const { return layout_.pose_place == PosePlace::kScanFile; }
@@ -97,7 +97,7 @@ class Samples {
   double point_scale_ = 1.0;
   double median_range_ = 0.0;
   mutable std::map<std::size_t, std::vector<Surfel>> surfels_;
-  mutable std::optional<SensorModel> seen_sensor_;
+  mutable std::optional<SensorModel> estimated_sensor_;
 };
 
 }  // namespace raymoval::inspection

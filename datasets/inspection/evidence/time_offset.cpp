@@ -63,7 +63,7 @@ bool goes_by_time(const Samples& samples) {
 }
 
 /// For each section of the sequence, the pair whose motion depends most on the time.
-std::vector<ScanPair> telling_pairs(const Samples& samples) {
+std::vector<ScanPair> informative_pairs(const Samples& samples) {
   const std::vector<Nanoseconds>& stamps = samples.sequence().stamps;
   std::vector<ScanPair> chosen;
   for (std::size_t part = 0; part < kPairs; ++part) {
@@ -97,11 +97,11 @@ double deviation_of(const Samples& samples, const std::vector<ScanPair>& pairs, 
 }
 
 /// Registers the scans of a pair, from its poses at several times.
-std::optional<SeenMotion> seen_motion(const Samples& samples, const ScanPair& pair) {
+std::optional<RegisteredMotion> registered_motion(const Samples& samples, const ScanPair& pair) {
   const SurfaceMap map(samples.surfels(pair.from));
   const std::vector<Surfel> moving = thinned(samples.surfels(pair.to));
   double best = kTooLittle;
-  std::optional<SeenMotion> seen;
+  std::optional<RegisteredMotion> seen;
   for (const double shift : {0.0, -0.15, 0.15, -0.4, 0.4, -0.8, 0.8, -1.5, 1.5}) {
     const auto start = motion_at(samples, pair, shift);
     if (!start) continue;
@@ -109,7 +109,7 @@ std::optional<SeenMotion> seen_motion(const Samples& samples, const ScanPair& pa
     const double reached = map.agreement(moving, refined);
     if (reached <= best) continue;
     best = reached;
-    seen = SeenMotion{pair, refined};
+    seen = RegisteredMotion{pair, refined};
   }
   return seen;
 }
@@ -119,20 +119,20 @@ class ShiftFit {
  public:
   ShiftFit(const Samples& samples, const std::vector<ScanPair>& pairs) : samples_(samples) {
     for (const ScanPair& pair : pairs) {
-      if (const auto seen = seen_motion(samples, pair)) seen_.push_back(*seen);
+      if (const auto seen = registered_motion(samples, pair)) seen_.push_back(*seen);
     }
   }
 
   [[nodiscard]] std::size_t size() const { return seen_.size(); }
   [[nodiscard]] std::vector<ScanPair> pairs() const {
     std::vector<ScanPair> pairs;
-    for (const SeenMotion& one : seen_) pairs.push_back(one.pair);
+    for (const RegisteredMotion& one : seen_) pairs.push_back(one.pair);
     return pairs;
   }
   /// Distances by pair; negative beyond the times of the poses.
   [[nodiscard]] std::vector<double> distances(double shift) const {
     std::vector<double> all;
-    for (const SeenMotion& one : seen_) {
+    for (const RegisteredMotion& one : seen_) {
       const auto motion = motion_at(samples_, one.pair, shift);
       all.push_back(motion ? distance(*motion, one.motion) : -1.0);
     }
@@ -170,7 +170,7 @@ class ShiftFit {
 
  private:
   const Samples& samples_;
-  std::vector<SeenMotion> seen_;
+  std::vector<RegisteredMotion> seen_;
 };
 
 /// Median of the known distances.
@@ -183,7 +183,7 @@ double median_of(std::vector<double> distances) {
 
 std::optional<TimeOffset> find_time_offset(Samples& samples) {
   if (!goes_by_time(samples)) return std::nullopt;
-  const std::vector<ScanPair> pairs = telling_pairs(samples);
+  const std::vector<ScanPair> pairs = informative_pairs(samples);
   if (pairs.size() < kFewestPairs) return std::nullopt;
   // With a steady motion, no scan is read, because the shift is undetermined.
   if (deviation_of(samples, pairs, 0.0, kUsualNoise) > kLeastOffset) return std::nullopt;

@@ -94,11 +94,11 @@ void Mover::place(double time, std::vector<PlacedPart>& parts) const {
 
 void Mover::set_label(double duration) {
   constexpr double kStill = 0.05;  // metres
-  constexpr int kLooks = 400;
+  constexpr int kOutcomeStyles = 400;
   const double start = track_.along(0.0);
   moves_ = presence_.from_s > 0.0 || presence_.until_s < duration;
-  for (int i = 1; i <= kLooks && !moves_; ++i) {
-    moves_ = std::abs(track_.along(duration * i / kLooks) - start) > kStill;
+  for (int i = 1; i <= kOutcomeStyles && !moves_; ++i) {
+    moves_ = std::abs(track_.along(duration * i / kOutcomeStyles) - start) > kStill;
   }
   const std::uint16_t semantic = moves_ ? body_.moving_label : body_.static_label;
   label_ = (static_cast<std::uint32_t>(instance_) << 16) | semantic;

@@ -59,7 +59,7 @@ bool keeps_lane(const std::string& kind) {
 World::World(const WorldFile& file, std::uint64_t seed, double duration)
     : ground_(std::make_unique<Ground>(file.terrain, file.roads, file.seed)) {
   for (const Ground::Piece& piece : ground_->pieces()) {
-    add_standing(piece.mesh, Isometry3d(Eigen::Translation3d(piece.origin)));
+    add_static(piece.mesh, Isometry3d(Eigen::Translation3d(piece.origin)));
   }
   std::uint64_t number = 0;
   for (const RowSpec& row : file.rows) add_row(row, file.seed, ++number);
@@ -78,7 +78,7 @@ std::uint16_t World::next_instance() {
   return ++instances_;
 }
 
-void World::add_standing(const Mesh& mesh, const Isometry3d& T_world_mesh) {
+void World::add_static(const Mesh& mesh, const Isometry3d& T_world_mesh) {
   const Vector3d at = T_world_mesh.translation();
   const Vector3d origin(std::floor(at.x() / kTile) * kTile, std::floor(at.y() / kTile) * kTile, 0);
   auto tile =
@@ -131,8 +131,8 @@ void World::add_row(const RowSpec& row, std::uint64_t seed, std::uint64_t number
         continue;
       }
       const std::uint16_t instance = part.part.starts_with("parked") ? next_instance() : 0;
-      add_standing(make_part(part, instance, random),
-                   placed(at.x(), at.y(), ground_->height(at), yaw));
+      add_static(make_part(part, instance, random),
+                 placed(at.x(), at.y(), ground_->height(at), yaw));
     }
   }
 }
@@ -140,8 +140,8 @@ void World::add_row(const RowSpec& row, std::uint64_t seed, std::uint64_t number
 void World::add_place(const PlaceSpec& place, std::uint64_t seed, std::uint64_t number) {
   Random random(seed, Purpose::kPart, number);
   const std::uint16_t instance = place.part.part.starts_with("parked") ? next_instance() : 0;
-  add_standing(make_part(place.part, instance, random),
-               placed(place.at.x(), place.at.y(), ground_->height(place.at), place.yaw_rad));
+  add_static(make_part(place.part, instance, random),
+             placed(place.at.x(), place.at.y(), ground_->height(place.at), place.yaw_rad));
 }
 
 void World::add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t number) {

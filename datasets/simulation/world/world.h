@@ -44,10 +44,10 @@ class World {
   World& operator=(const World&) = delete;
 
   /// Adds a static mesh to the tile of its origin.
-  void add_standing(const Mesh& mesh, const Eigen::Isometry3d& T_world_mesh);
+  void add_static(const Mesh& mesh, const Eigen::Isometry3d& T_world_mesh);
   void add_mover(Mover mover) { movers_.push_back(std::make_unique<Mover>(std::move(mover))); }
   void set_air(const Air& air) { air_ = air; }
-  /// Fixes the tiles' bounds; call it once, after the last `add_standing`.
+  /// Fixes the tiles' bounds; call it once, after the last `add_static`.
   void finish();
 
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }

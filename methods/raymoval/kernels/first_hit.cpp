@@ -177,7 +177,7 @@ std::array<int, 2> level_axes(const std::array<double, 3>& up) {
 
 FirstHitCaster::FirstHitCaster(const AngularGrid& grid, const RayLimits& limits)
     : grid_(grid), limits_(limits), tables_(tables_for(grid)) {
-  all_.ask_for_all(grid);
+  all_.request_all(grid);
 }
 
 void FirstHitCaster::cast(OccupancyMap& map, const Pose& T_world_sensor, const WantedBins& wanted,

@@ -25,11 +25,12 @@ void cut(std::span<std::uint64_t> words, std::size_t rows) {
 
 }  // namespace
 
-void WantedBins::ask_for_all(const AngularGrid& grid) {
-  ask_around(std::vector<float>(static_cast<std::size_t>(grid.size())), grid, 0);
+void WantedBins::request_all(const AngularGrid& grid) {
+  request_around(std::vector<float>(static_cast<std::size_t>(grid.size())), grid, 0);
 }
 
-void WantedBins::ask_around(const std::vector<float>& values, const AngularGrid& grid, int radius) {
+void WantedBins::request_around(const std::vector<float>& values, const AngularGrid& grid,
+                                int radius) {
   const auto columns = static_cast<std::size_t>(grid.azimuth_bins);
   const auto rows = static_cast<std::size_t>(grid.elevation_bins);
   words_ = rows / 64 + 1;

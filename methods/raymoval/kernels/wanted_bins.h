@@ -13,11 +13,11 @@ namespace raymoval::raymoval_method {
 class WantedBins {
  public:
   /// Marks all bins as wanted.
-  void ask_for_all(const AngularGrid& grid);
+  void request_all(const AngularGrid& grid);
   /// Marks the bins within `radius` columns and rows of each bin where `values` is finite. The
   /// azimuth wraps around.
   /// @param values one per bin of `grid`
-  void ask_around(const std::vector<float>& values, const AngularGrid& grid, int radius);
+  void request_around(const std::vector<float>& values, const AngularGrid& grid, int radius);
 
   /// The wanted rows of column `i`: bit j % 64 of word j / 64 is row j. The bit after the last row
   /// exists and is never set.

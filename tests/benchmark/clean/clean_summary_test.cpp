@@ -22,7 +22,7 @@ TEST_CASE("What to try follows from what was done") {
   const auto advice = [](std::uint64_t removed, const std::string& method,
                          const std::vector<Finding>& warned, bool is_seen) {
     std::string text;
-    for (const std::string& line : what_to_try(removed, 10000, "data", method, warned, is_seen)) {
+    for (const std::string& line : remedies(removed, 10000, "data", method, warned, is_seen)) {
       text += line + '\n';
     }
     return text;

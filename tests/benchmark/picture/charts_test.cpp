@@ -173,7 +173,7 @@ TEST_CASE("No colour comes twice in a chart") {
   for (const std::size_t count : {1U, 6U, 7U, 13U, 40U}) {
     std::vector<std::string> colours;
     for (std::size_t i = 0; i < count; ++i) {
-      colours.push_back(colour_text(series_look(i, count).colour));
+      colours.push_back(colour_text(series_style(i, count).colour));
     }
     CHECK(colours.front() == colour_text(kSeriesColours.front()));
     std::sort(colours.begin(), colours.end());

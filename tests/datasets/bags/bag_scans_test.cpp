@@ -262,6 +262,10 @@ TEST_CASE("Without odometry the frames of tf are followed from the root to the s
   CHECK(sequence.poses_file == "tf map -> lidar");
   CHECK(position(sequence, 0).isApprox(Eigen::Vector3d(1, 12.2, 2), 1e-9));
   CHECK(sequence.motion->span().first == from_seconds(100));
+  // Only `base` is fixed to the frame of the points; `wheel` may move.
+  const auto frames = sequence.fixed_frames();
+  CHECK(frames.size() == 1);
+  CHECK(frames.at("base").isApprox(Eigen::Vector3d(0, 0, -2)));
 }
 
 TEST_CASE("A step of tf has a pose only where messages give one", "[bags]") {

@@ -33,7 +33,7 @@ TEST_CASE("any layout goes through .pcd, .npy and .bin bit for bit", "[records]"
     const PointRecords npy = round_trip(folder / "a.npy", made);
     CHECK(npy.layout == made.layout);
     CHECK(npy.bytes == made.bytes);
-    CHECK(what_is_lost("a.npy", made.layout).empty());
+    CHECK(format_losses("a.npy", made.layout).empty());
 
     const PointRecords pcd = round_trip(folder / "a.pcd", made);
     RecordLayout renamed = made.layout;
@@ -42,13 +42,13 @@ TEST_CASE("any layout goes through .pcd, .npy and .bin bit for bit", "[records]"
     }
     CHECK(pcd.layout == renamed);
     CHECK(pcd.bytes == made.bytes);
-    CHECK(what_is_lost("a.pcd", made.layout).size() == (renamed == made.layout ? 0 : 1));
+    CHECK(format_losses("a.pcd", made.layout).size() == (renamed == made.layout ? 0 : 1));
 
     const PointRecords bin = round_trip(folder / "a.bin", made, {point_layout_text(made.layout)});
     CHECK(bin.layout.fields == renamed.fields);
     CHECK(bin.bytes == made.bytes);
-    REQUIRE(what_is_lost("a.bin", made.layout).size() == 1);
-    check_says(what_is_lost("a.bin", made.layout)[0], {point_layout_text(made.layout)});
+    REQUIRE(format_losses("a.bin", made.layout).size() == 1);
+    check_says(format_losses("a.bin", made.layout)[0], {point_layout_text(made.layout)});
   }
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("any layout goes through .ply value by value", "[records]") {
         }
       }
     }
-    CHECK(what_is_lost("a.ply", made.layout).size() == told);
+    CHECK(format_losses("a.ply", made.layout).size() == told);
   }
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("what PLY rounds is said, and is the nearest double", "[records]") {
   records.bytes.resize(records.layout.row_bytes);
   const std::uint64_t time = 1700000000123456789U;
   std::memcpy(records.bytes.data() + 12, &time, sizeof time);
-  check_says(what_is_lost("a.ply", records.layout).at(0), {"'t'", "uint64 t", "2^53"});
+  check_says(format_losses("a.ply", records.layout).at(0), {"'t'", "uint64 t", "2^53"});
   CHECK(column(round_trip(folder / "a.ply", records), "t") ==
         std::vector<double>{static_cast<double>(time)});
   for (const char* exact : {"a.pcd", "a.npy"}) {
@@ -238,7 +238,7 @@ TEST_CASE("a writer refuses what cannot be before the file appears", "[records]"
   CHECK_THROWS_AS(PointRecordWriter(folder / "a.npz"), UsageError);
   CHECK_THROWS_AS(PointRecordWriter(folder / "a.pcd.gz"), UsageError);
   check_says(message_of<UsageError>([&] { PointRecordWriter(folder / "a.laz"); }), {"laszip"});
-  CHECK_THROWS_AS(what_is_lost("a.xyz", {}), UsageError);
+  CHECK_THROWS_AS(format_losses("a.xyz", {}), UsageError);
   PointRecordWriter writer(folder / "a.pcd");
   check_says(message_of<DataError>([&] { writer.start({}); }), {"no field 'x'"});
   writer.start(parse_point_layout("x y z"));

@@ -153,11 +153,11 @@ TEST_CASE("the own car is told by a level distance where the body is on the grou
     return Eigen::Vector3d(tilted.linear().transpose() * ahead).cast<float>().eval();
   };
   const Eigen::Vector3f far = seen({3.2, 0, 0}), near = seen({2.6, 0, -1.5});
-  CHECK(is_own_car(far, tilted, parameters));         // 3.2 * cos 35 = 2.62.
-  CHECK_FALSE(is_own_car(near, tilted, parameters));  // 2.6 * cos 35 + 1.5 * sin 35 = 2.99.
+  CHECK(is_ego_vehicle(far, tilted, parameters));         // 3.2 * cos 35 = 2.62.
+  CHECK_FALSE(is_ego_vehicle(near, tilted, parameters));  // 2.6 * cos 35 + 1.5 * sin 35 = 2.99.
   parameters.body = Body::kGround;
-  CHECK_FALSE(is_own_car(far, tilted, parameters));
-  CHECK(is_own_car(near, tilted, parameters));
+  CHECK_FALSE(is_ego_vehicle(far, tilted, parameters));
+  CHECK(is_ego_vehicle(near, tilted, parameters));
 }
 
 TEST_CASE("without ground below it the sensor is as high as it is said to be", "[erasor]") {

@@ -23,7 +23,7 @@ void pass(scan_grid::ScanGrid& grid, const VoxelIndex& low, const VoxelIndex& hi
 std::vector<VoxelIndex> passed(FreeMap& map, const VoxelIndex& low, const VoxelIndex& high) {
   scan_grid::ScanGrid grid;
   pass(grid, low, high);
-  return map.take_passes(grid);
+  return map.count_passes(grid);
 }
 
 /// A scan with a point in the middle of a voxel of 0.4 m. @return the level it gets
@@ -34,7 +34,7 @@ Level hit(FreeMap& map, const VoxelIndex& voxel) {
   all.minimum_range = 0.0;
   ScanMap voxels;
   voxels.fill(scan, all);
-  map.take_hits(voxels);
+  map.count_hits(voxels);
   return voxels.voxels().at(0).level;
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("freedom: rays do not pass what their own scan hits") {
   pass(grid, kMiddle - kOne, kMiddle + kOne);
   grid.column(kMiddle).hit |= scan_grid::bit_of(kMiddle);
   FreeMap map(counts(1));
-  CHECK(map.take_passes(grid).empty());
+  CHECK(map.count_passes(grid).empty());
 }
 
 TEST_CASE("freedom: free space that is hit scan after scan is free no more") {

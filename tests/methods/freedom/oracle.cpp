@@ -43,9 +43,9 @@ Oracle::Oracle(const Parameters& parameters, const ScanSource& scans)
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
     ScanVoxels voxels = voxels_of(scan);
-    take_hits(voxels);
+    count_hits(voxels);
     grow_in_scan(voxels);
-    remove_from_map(take_passes(passed_by_rays(scan, voxels, scans.sensor())));
+    remove_from_map(count_passes(passed_by_rays(scan, voxels, scans.sensor())));
     integrate(voxels, i);
   }
 }
@@ -89,7 +89,7 @@ Oracle::ScanVoxels Oracle::voxels_of(const Scan& scan) const {
   return voxels;
 }
 
-void Oracle::take_hits(ScanVoxels& voxels) {
+void Oracle::count_hits(ScanVoxels& voxels) {
   std::vector<Cell> reverted;
   for (auto& [cell, seen] : voxels) {
     if (blocks_.count(block_of(cell)) == 0) continue;
@@ -174,7 +174,7 @@ bool Oracle::is_full(const Cell& block) const {
   return true;
 }
 
-Cells Oracle::take_passes(const Cells& passed) {
+Cells Oracle::count_passes(const Cells& passed) {
   Cells full, counted, newly_free;
   for (const Cell& block : blocks_) {
     if (is_full(block)) full.insert(block);

@@ -60,7 +60,7 @@ class Oracle {
   [[nodiscard]] Cell voxel_of(const Cell& sub_voxel) const;
 
   [[nodiscard]] ScanVoxels voxels_of(const Scan& scan) const;
-  void take_hits(ScanVoxels& voxels);
+  void count_hits(ScanVoxels& voxels);
   void revert(const Cell& voxel);
   void grow_in_scan(ScanVoxels& voxels) const;
   [[nodiscard]] Cells passed_by_rays(const Scan& scan, const ScanVoxels& voxels,
@@ -68,7 +68,7 @@ class Oracle {
   void follow(const Eigen::Vector3d& sensor, Eigen::Vector3d way, const ScanVoxels& voxels,
               Cells& passed) const;
   [[nodiscard]] bool is_full(const Cell& block) const;
-  [[nodiscard]] Cells take_passes(const Cells& passed);
+  [[nodiscard]] Cells count_passes(const Cells& passed);
   void remove_from_map(const Cells& newly_free);
   void integrate(const ScanVoxels& voxels, std::size_t scan);
 

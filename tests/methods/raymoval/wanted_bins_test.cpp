@@ -35,8 +35,8 @@ TEST_CASE("bins are wanted around every value, and nowhere else") {
     const int radius = random.integer(0, 4);
     INFO(grid.azimuth_bins << " x " << grid.elevation_bins << ", radius " << radius);
     WantedBins wanted;
-    wanted.ask_for_all(grid);  // Replaces earlier requests.
-    wanted.ask_around(values, grid, radius);
+    wanted.request_all(grid);  // Replaces earlier requests.
+    wanted.request_around(values, grid, radius);
     for (int bin = 0; bin < grid.size(); ++bin) {
       const auto around = values_around(values, {grid, radius, radius}, bin);
       REQUIRE(wanted.contains(grid, bin) ==
@@ -61,7 +61,7 @@ TEST_CASE("first hits that are asked for do not depend on which others are", "[s
     const FirstHitImage all = cast_first_hits(map, pose, grid, limits, 1);
     const std::vector<float> values = random_values(grid, random.real(0, 0.2), random);
     WantedBins wanted;
-    wanted.ask_around(values, grid, 1);
+    wanted.request_around(values, grid, 1);
     for (const InstructionSet set : supported_instruction_sets()) {
       INFO(instruction_set_name(set));
       const InstructionSetScope scope(set);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/process/foster_parent.h"
+#include "core/process/subreaper_scope.h"
 
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -22,7 +22,7 @@ constexpr int kHighestScore = 1000;
 struct Families {
   std::mutex mutex;
   int count = 0;
-  int was_foster_parent = 0;  ///< Whether this process was one before the first family.
+  int was_subreaper = 0;  ///< Whether this process was one before the first family.
   std::set<pid_t> heads;
 };
 
@@ -39,30 +39,30 @@ int score_of(const std::filesystem::path& process) {
 
 }  // namespace
 
-FosterParent::FosterParent()
+SubreaperScope::SubreaperScope()
     : score_(std::min(kHighestScore, std::max(kUsualScore, score_of("/proc/self") + 1))) {
   Families& all = families();
   const std::lock_guard lock(all.mutex);
   if (all.count++ > 0) return;
-  ::prctl(PR_GET_CHILD_SUBREAPER, &all.was_foster_parent);
+  ::prctl(PR_GET_CHILD_SUBREAPER, &all.was_subreaper);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
 
-FosterParent::~FosterParent() {
+SubreaperScope::~SubreaperScope() {
   Families& all = families();
   const std::lock_guard lock(all.mutex);
   all.heads.erase(head_);
-  if (--all.count == 0) ::prctl(PR_SET_CHILD_SUBREAPER, all.was_foster_parent);
+  if (--all.count == 0) ::prctl(PR_SET_CHILD_SUBREAPER, all.was_subreaper);
 }
 
-void FosterParent::set_head(pid_t head) {
+void SubreaperScope::set_head(pid_t head) {
   Families& all = families();
   const std::lock_guard lock(all.mutex);
   head_ = head;
   all.heads.insert(head);
 }
 
-std::vector<pid_t> FosterParent::foster_children() const {
+std::vector<pid_t> SubreaperScope::adopted_children() const {
   Families& all = families();
   const std::lock_guard lock(all.mutex);
   // A family is counted before its head starts, so that the head is not taken for a foster child.

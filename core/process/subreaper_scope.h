@@ -15,12 +15,12 @@ namespace raymoval {
 /// library, and processes that these left behind. They are never waited for or ended. A child of a
 /// family is recognised by its oom_score_adj. Heads of families get it, descendants inherit it, and
 /// only the system's administrator can lower it.
-class FosterParent {
+class SubreaperScope {
  public:
-  FosterParent();
-  ~FosterParent();
-  FosterParent(const FosterParent&) = delete;
-  FosterParent& operator=(const FosterParent&) = delete;
+  SubreaperScope();
+  ~SubreaperScope();
+  SubreaperScope(const SubreaperScope&) = delete;
+  SubreaperScope& operator=(const SubreaperScope&) = delete;
 
   /// The oom_score_adj of the head that is to be started, which is more than this process's own. It
   /// also lets the system end the child and not this process when memory runs out.
@@ -32,7 +32,7 @@ class FosterParent {
   /// The foster children. Ended foster children are waited for, so that they are found only once.
   /// Their family is unknown, so the list is empty as long as another family runs, too: the last
   /// family ends them.
-  [[nodiscard]] std::vector<pid_t> foster_children() const;
+  [[nodiscard]] std::vector<pid_t> adopted_children() const;
 
  private:
   int score_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/unpack.h"
+#include "datasets/bags/decompress.h"
 
 #include <bzlib.h>
 #include <lz4frame.h>
@@ -15,7 +15,7 @@
 namespace raymoval {
 namespace {
 
-constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostDecompressed = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMostGain = 1000;
 constexpr std::uint64_t kFreeGain = std::uint64_t{1} << 20;
 
@@ -75,7 +75,7 @@ class Room {
   std::string bytes_;
 };
 
-Unpacked result(Room& room, std::uint64_t stated, std::string problem) {
+Decompressed result(Room& room, std::uint64_t stated, std::string problem) {
   if (room.over()) problem = too_much(stated);
   if (problem.empty() && room.used() < stated) problem = too_little(room.used(), stated);
   return {room.take(), std::move(problem)};
@@ -83,21 +83,23 @@ Unpacked result(Room& room, std::uint64_t stated, std::string problem) {
 
 }  // namespace
 
-std::uint64_t most_unpacked_size(std::uint64_t packed) {
-  const std::uint64_t counted = std::min(packed, kMostUnpacked);
-  return std::min(kMostUnpacked, kMostGain * counted + kFreeGain);
+std::uint64_t most_decompressed_size(std::uint64_t packed) {
+  const std::uint64_t counted = std::min(packed, kMostDecompressed);
+  return std::min(kMostDecompressed, kMostGain * counted + kFreeGain);
 }
 
-void check_unpacked_size(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
-  if (unpacked <= most_unpacked_size(packed)) return;
+void check_decompressed_size(std::uint64_t packed, std::uint64_t unpacked,
+                             const std::string& where) {
+  if (unpacked <= most_decompressed_size(packed)) return;
   throw DataError(where + " of " + grouped_text(packed) + " bytes should decompress to " +
                   grouped_text(unpacked) +
                   ", beyond the limit of 1 GiB and of 1,000 times its bytes and 1 MiB; the file "
                   "looks damaged. Copy it again.");
 }
 
-Unpacked unpack_bz2(std::string_view packed, std::uint64_t stated, const std::string& where) {
-  check_unpacked_size(packed.size(), stated, where);
+Decompressed decompress_bz2(std::string_view packed, std::uint64_t stated,
+                            const std::string& where) {
+  check_decompressed_size(packed.size(), stated, where);
   Bz2Stream stream;
   Room room(stated);
   constexpr std::size_t kPiece = std::numeric_limits<unsigned>::max();
@@ -126,8 +128,9 @@ Unpacked unpack_bz2(std::string_view packed, std::uint64_t stated, const std::st
   return result(room, stated, "");
 }
 
-Unpacked unpack_lz4(std::string_view packed, std::uint64_t stated, const std::string& where) {
-  check_unpacked_size(packed.size(), stated, where);
+Decompressed decompress_lz4(std::string_view packed, std::uint64_t stated,
+                            const std::string& where) {
+  check_decompressed_size(packed.size(), stated, where);
   LZ4F_dctx* made_context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&made_context, LZ4F_VERSION)) != 0) {
     throw std::bad_alloc();
@@ -155,11 +158,11 @@ Unpacked unpack_lz4(std::string_view packed, std::uint64_t stated, const std::st
 namespace {
 
 /// Decompresses piece by piece.
-class Unpacker {
+class Decompressor {
  public:
   using Take = std::function<void(std::string_view)>;
 
-  Unpacker() : stream_(ZSTD_createDStream()), piece_(ZSTD_DStreamOutSize(), '\0') {
+  Decompressor() : stream_(ZSTD_createDStream()), piece_(ZSTD_DStreamOutSize(), '\0') {
     if (!stream_) throw std::bad_alloc();
   }
 
@@ -200,11 +203,12 @@ bool is_zstd(std::string_view bytes) {
   return bytes.starts_with("\x28\xB5\x2F\xFD");
 }
 
-Unpacked unpack_zstd(std::string_view packed, std::uint64_t stated, const std::string& where) {
-  check_unpacked_size(packed.size(), stated, where);
-  Unpacked unpacked;
+Decompressed decompress_zstd(std::string_view packed, std::uint64_t stated,
+                             const std::string& where) {
+  check_decompressed_size(packed.size(), stated, where);
+  Decompressed unpacked;
   unpacked.bytes.reserve(stated);
-  Unpacker unpacker;
+  Decompressor unpacker;
   unpacked.problem =
       unpacker.add(packed, stated, [&](std::string_view piece) { unpacked.bytes += piece; });
   if (unpacker.made() > stated) unpacked.problem = too_much(stated);
@@ -215,13 +219,13 @@ Unpacked unpack_zstd(std::string_view packed, std::uint64_t stated, const std::s
   return unpacked;
 }
 
-std::string unpack_zstd_message(std::string_view packed, const std::string& where) {
+std::string decompress_zstd_message(std::string_view packed, const std::string& where) {
   const unsigned long long said = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  const std::uint64_t most = most_unpacked_size(packed.size());
-  if (said < ZSTD_CONTENTSIZE_ERROR) check_unpacked_size(packed.size(), said, where);
+  const std::uint64_t most = most_decompressed_size(packed.size());
+  if (said < ZSTD_CONTENTSIZE_ERROR) check_decompressed_size(packed.size(), said, where);
   std::string bytes;
   if (said < ZSTD_CONTENTSIZE_ERROR) bytes.reserve(said);
-  Unpacker unpacker;
+  Decompressor unpacker;
   std::string problem = unpacker.add(packed, most, [&](std::string_view piece) { bytes += piece; });
   if (unpacker.made() > most) {
     problem = "it decompresses to more than " + grouped_text(most) +
@@ -232,13 +236,13 @@ std::string unpack_zstd_message(std::string_view packed, const std::string& wher
   throw DataError(where + ": " + problem + ". Copy the file again.");
 }
 
-std::string unpacked_if_packed(std::string message, bool is_cdr, const std::string& where) {
-  return is_cdr && is_zstd(message) ? unpack_zstd_message(message, where) : std::move(message);
+std::string decompressed_if_needed(std::string message, bool is_cdr, const std::string& where) {
+  return is_cdr && is_zstd(message) ? decompress_zstd_message(message, where) : std::move(message);
 }
 
-std::string unpack_zstd_file(const BagFile& file, std::uint64_t most,
-                             const std::function<void(std::string_view)>& take) {
-  Unpacker unpacker;
+std::string decompress_zstd_file(const BagFile& file, std::uint64_t most,
+                                 const std::function<void(std::string_view)>& take) {
+  Decompressor unpacker;
   std::string problem;
   constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
   for (std::uint64_t at = 0; at < file.size() && problem.empty(); at += kPiece) {
