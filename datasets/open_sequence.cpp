@@ -76,10 +76,22 @@ void check_label_rule(const Sequence& sequence, const SequenceOptions& options) 
                    ". Leave it out.");
 }
 
+/// " Its folder scans/ has scans: ...", if one of its folders has; else empty.
+std::string scans_below_text(const fs::path& folder) {
+  for (const fs::path& below : folders_in(folder)) {
+    if (list_files(below, cloud_extensions()).empty()) continue;
+    const fs::path poses = folder / "poses.txt";
+    return " Its folder " + below.filename().string() + "/ has scans: use " + below.string() +
+           " --poses " + (is_file(poses) ? poses.string() : "FILE") + ".";
+  }
+  return "";
+}
+
 [[noreturn]] void throw_unrecognised(const std::string& path) {
   if (is_folder(path)) {
     check_known_files(path);
-    throw DataError(path + ": no known layout; found " + content_text(path) + "." + known_text());
+    throw DataError(path + ": no known layout; found " + content_text(path) + "." +
+                    scans_below_text(path) + known_text());
   }
   if (is_there(path)) {
     const std::string above = sequence_above(path);

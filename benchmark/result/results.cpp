@@ -31,6 +31,11 @@ void add_columns(const Cell& cell, RunResults& results) {
     auto found = std::find_if(method.values.begin(), method.values.end(),
                               [&](const auto& known) { return known.first == column.name; });
     if (found == method.values.end()) found = method.values.insert(found, {column.name, Share{}});
+    if (column.name == kWorstParked) {
+      const auto worst = found->second.percent(), percent = column.share.percent();
+      if (percent && (!worst || *percent < *worst)) found->second = column.share;
+      continue;
+    }
     found->second.part += column.share.part;
     found->second.whole += column.share.whole;
   }

@@ -215,11 +215,19 @@ TextTable reliability_table(const MethodReliability& method) {
 std::vector<TextTable> compact_column_tables(const RunResults& results) {
   const std::vector<const MethodColumns*> methods = shown_methods(results, false);
   if (methods.empty()) return {};
-  const std::vector<std::string> columns = {"precision",    "recall",      "residue",
-                                            "preservation", "worst mover", "worst static class"};
+  std::vector<std::string> columns = {"precision",    "recall",      "residue",
+                                      "preservation", "worst mover", "worst static class"};
+  std::vector<std::string> of_objects;
+  for (const char* name : {"parked", kWorstParked, "trails"}) {
+    if (most_points(methods, name) > 0) of_objects.push_back(name);
+  }
+  columns.insert(columns.begin(), of_objects.begin(), of_objects.end());
   TextTable table{"Points removed", "method", {{"", columns}}};
   for (const MethodColumns* method : methods) {
     TableRow& row = table.rows.emplace_back(TableRow{method->cell, {}});
+    for (const std::string& name : of_objects) {
+      row.cells.push_back({percent_text(method->find(name))});
+    }
     for (const char* name : {"precision", "recall", "residue", "preservation"}) {
       row.cells.push_back({percent_text(method->find(name))});
     }
@@ -229,8 +237,12 @@ std::vector<TextTable> compact_column_tables(const RunResults& results) {
   table.notes.push_back(
       "In percent of points, all sequences together. precision: share of removed points that move; "
       "recall: share of moving points that are removed; residue: share of kept points that move; "
-      "preservation: share of static points that are kept. Of the classes with " +
-      std::to_string(kNamedClassPoints) +
+      "preservation: share of static points that are kept. " +
+      std::string(of_objects.empty() ? ""
+                                     : "parked: share of the points of a parked object that are "
+                                       "kept, mean and worst; trails: share of moving objects of "
+                                       "which at least 95 % is removed. ") +
+      "Of the classes with " + std::to_string(kNamedClassPoints) +
       " points or more, the worst are shown. `raymoval table RUN --columns` has every class, range "
       "and height.");
   return {table};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/columns/columns.h"
 
+#include <algorithm>
+
 namespace raymoval {
 namespace {
 
@@ -109,6 +111,56 @@ std::vector<Column> make_general_columns() {
   return columns;
 }
 
+/// Whether a point of this class and instance moves in any scan.
+bool moves_at_times(const RemovalTally& tally, std::uint32_t word) {
+  const std::string moving_name = "moving-" + tally.label_rule.class_name(semantic_id(word));
+  return std::any_of(tally.objects.begin(), tally.objects.end(), [&](const auto& other) {
+    return instance_id(other.first) == instance_id(word) &&
+           tally.label_rule.class_name(semantic_id(other.first)) == moving_name;
+  });
+}
+
+/// The objects that are large enough: parked ones, or moving ones.
+std::vector<PointTally> objects_of(const RemovalTally& tally, bool moving) {
+  std::vector<PointTally> objects;
+  for (const auto& [word, points] : tally.objects) {
+    if (points.points < kFewestObjectPoints) continue;
+    if ((tally.label_rule.classify(word) == LabelClass::kMoving) != moving) continue;
+    if (moving || !moves_at_times(tally, word)) objects.push_back(points);
+  }
+  return objects;
+}
+
+Share mean_kept(const std::vector<PointTally>& objects) {
+  constexpr std::int64_t kMillion = 1'000'000;
+  Share mean;
+  for (const PointTally& object : objects) {
+    mean.part += (kMillion * object.kept() + object.points / 2) / object.points;
+    mean.whole += kMillion;
+  }
+  return mean;
+}
+
+Share worst_kept(const std::vector<PointTally>& objects) {
+  Share worst;
+  for (const PointTally& object : objects) {
+    const Share kept = kept_share(object);
+    if (worst.whole == 0 || *kept.percent() < *worst.percent()) worst = kept;
+  }
+  return worst;
+}
+
+/// The objects of which `part` is a share of at least `kWholeObject`.
+Share whole_objects(const std::vector<PointTally>& objects,
+                    std::int64_t (*part)(const PointTally& object)) {
+  Share whole{0, static_cast<std::int64_t>(objects.size())};
+  for (const PointTally& object : objects) {
+    const auto least = kWholeObject * static_cast<double>(object.points);
+    if (static_cast<double>(part(object)) >= least) ++whole.part;
+  }
+  return whole;
+}
+
 }  // namespace
 
 std::string ColumnName::text() const {
@@ -162,6 +214,34 @@ std::vector<Column> class_columns(const RemovalTally& tally) {
   return columns;
 }
 
+std::vector<Column> object_columns(const RemovalTally& tally) {
+  std::vector<Column> columns;
+  if (!objects_of(tally, false).empty()) {
+    const std::string reason = "there is no parked object";
+    columns = {
+        {"parked", "Points of a parked object that are kept, mean over objects.", Better::kHigher,
+         reason, [](const RemovalTally& all) { return mean_kept(objects_of(all, false)); }},
+        {kWorstParked, "Points kept of the parked object that loses most.", Better::kHigher, reason,
+         [](const RemovalTally& all) { return worst_kept(objects_of(all, false)); }},
+        {"parked below 95 %", "Parked objects of which less than 95 % is kept.", Better::kLower,
+         reason, [](const RemovalTally& all) {
+           Share below = whole_objects(objects_of(all, false),
+                                       [](const PointTally& object) { return object.kept(); });
+           below.part = below.whole - below.part;
+           return below;
+         }}};
+  }
+  if (!objects_of(tally, true).empty()) {
+    columns.push_back({"trails", "Moving objects of which at least 95 % is removed.",
+                       Better::kHigher, "there is no moving object", [](const RemovalTally& all) {
+                         return whole_objects(objects_of(all, true), [](const PointTally& object) {
+                           return object.removed;
+                         });
+                       }});
+  }
+  return columns;
+}
+
 std::vector<ColumnValue> column_values(const RemovalTally& tally) {
   std::vector<ColumnValue> values;
   const auto add = [&](const std::vector<Column>& columns) {
@@ -170,6 +250,7 @@ std::vector<ColumnValue> column_values(const RemovalTally& tally) {
     }
   };
   add(general_columns());
+  add(object_columns(tally));
   add(class_columns(tally));
   return values;
 }

@@ -61,6 +61,23 @@ const std::vector<Column>& general_columns();
 /// and height band in which it has points, "rejection [moving-car, range 0-10 m]".
 std::vector<Column> class_columns(const RemovalTally& tally);
 
+/// Objects with fewer points are in no column of objects.
+inline constexpr std::int64_t kFewestObjectPoints = 200;
+/// Share of its points from which an object counts as kept, or as gone.
+inline constexpr double kWholeObject = 0.95;
+/// The column of the object that loses most. Over several sequences it is the worst of all.
+inline constexpr const char* kWorstParked = "parked worst";
+
+/// The columns of objects, which labels with instance ids tell apart. A parked object is static in
+/// all scans: no point of its class and instance id moves ("car" and "moving-car" are one class).
+/// - `parked`: the share of points kept, as the mean over parked objects, in millionths of an
+///   object;
+/// - `parked worst`: the same share of the object that loses most;
+/// - `parked below 95 %`: the parked objects of which a smaller share is kept;
+/// - `trails`: the moving objects of which at least 95 % is removed.
+/// Without such objects there are no columns.
+std::vector<Column> object_columns(const RemovalTally& tally);
+
 /// A column with its value.
 struct ColumnValue {
   std::string name;
@@ -68,7 +85,7 @@ struct ColumnValue {
   std::string undefined_reason;
 };
 
-/// All columns, general ones first.
+/// All columns: general ones, those of objects, those of classes.
 std::vector<ColumnValue> column_values(const RemovalTally& tally);
 
 }  // namespace raymoval

@@ -36,6 +36,8 @@ RemovalTally tally_scan(const EvaluationInput& input, const LabelClasses& classe
   RemovalTally tally;
   ClassTally* of_class = nullptr;  // Of the last point counted: neighbours often share it.
   std::uint16_t id = 0;
+  PointTally* of_object = nullptr;  // Likewise.
+  std::uint32_t object = 0;
   for (std::size_t i = 0; i < loaded.scan.size(); ++i) {
     const Eigen::Vector3d point = loaded.scan.points[i].cast<double>();
     const LabelClass label_class = classes.of(loaded.labels[i]);
@@ -49,6 +51,12 @@ RemovalTally tally_scan(const EvaluationInput& input, const LabelClasses& classe
       of_class->moving = label_class == LabelClass::kMoving;
     }
     count(point, loaded.removed(i), *of_class);
+    if (instance_id(loaded.labels[i]) == 0) continue;
+    if (of_object == nullptr || object != loaded.labels[i]) {
+      object = loaded.labels[i];
+      of_object = &tally.objects[object];
+    }
+    *of_object += PointTally{1, loaded.removed(i) ? 1 : 0};
   }
   return tally;
 }
@@ -60,6 +68,7 @@ void add(const RemovalTally& scan, RemovalTally& all) {
     for (std::size_t i = 0; i < kRangeBands; ++i) to.by_range[i] += from.by_range[i];
     for (std::size_t i = 0; i < kHeightBands; ++i) to.by_height[i] += from.by_height[i];
   }
+  for (const auto& [word, points] : scan.objects) all.objects[word] += points;
 }
 
 }  // namespace

@@ -24,6 +24,11 @@ struct PointTally {
   [[nodiscard]] std::int64_t kept() const { return points - removed; }
 };
 
+/// Instance id of a label word; 0: the point belongs to no instance.
+constexpr std::uint16_t instance_id(std::uint32_t word) {
+  return static_cast<std::uint16_t>(word >> 16U);
+}
+
 inline constexpr std::size_t kRangeBands = 6;
 inline constexpr std::size_t kHeightBands = 5;
 
@@ -50,10 +55,12 @@ struct ClassTally {
   [[nodiscard]] PointTally all() const;
 };
 
-/// Points of each semantic id that occurs, in the order of ids.
+/// Points of each semantic id that occurs, in the order of ids, and of each object.
 struct RemovalTally {
   LabelRule label_rule;  ///< Says what the ids mean.
   std::map<std::uint16_t, ClassTally> classes;
+  /// By label word: semantic id and instance id, where the instance id is not 0.
+  std::map<std::uint32_t, PointTally> objects;
 };
 
 /// Counts the points that the `erasor` protocol evaluates by default (in range, not ignored, not

@@ -279,3 +279,16 @@ TEST_CASE("a row of nan at an end is continued for a moment", "[trajectories]") 
   CHECK(stamped_poses(read(tum_row("0", std::nan("")) + tum_row("1", 1) + tum_row("2", 2)), notes)
             .size() == 2);
 }
+
+TEST_CASE("scans in a folder below their poses are named with the options that open them") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  folder.write("scans/0.bin", floats({1.0F, 2.0F, 3.0F, 0.5F}));
+  folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const std::string scans = (folder / "scans").string(), poses = (folder / "poses.txt").string();
+  check_says(message_of<DataError>([&] { (void)open_sequence(folder.text(), {}); }),
+             {"has scans: use " + scans + " --poses " + poses});
+  SequenceOptions options;
+  options.poses = poses;
+  CHECK(open_sequence(scans, options).scans->size() == 1);
+}
