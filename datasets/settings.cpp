@@ -30,7 +30,7 @@ Eigen::Vector3d up_value(const json& value, const std::string& where) {
   }
   const auto up = parse_up(text);
   if (!up) {
-    throw ConfigurationError(where + ": " + value.dump() + " is no direction; " + kUpForm + ".");
+    throw ConfigurationError(where + ": " + value.dump() + " is not a direction; " + kUpForm + ".");
   }
   return *up;
 }

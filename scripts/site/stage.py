@@ -216,7 +216,7 @@ def for_mkdocs(text):
 def home(text):
     """The README as the first page of the site: buttons below its promise, and the whole width."""
     buttons = " ".join(f"[{title}]({page}){{ .md-button{' .md-button--primary' if first else ''} }}" for first, title, page in (
-        (True, "Start in two minutes", "docs/getting-started.md"), (False, "Clean your map", "docs/clean.md"),
+        (True, "Get started", "docs/getting-started.md"), (False, "Clean your map", "docs/clean.md"),
         (False, "Compare methods", "docs/compare-methods.md"), (False, "Add a method", "docs/your-method.md")))
     before, picture, after = text.partition("\n![")
     return f"---\ntitle: raymoval\nhide: [navigation, toc]\n---\n{before}\n{buttons}\n{picture}{after}"

@@ -32,7 +32,7 @@ TEST_CASE("A slip is named with line and column") {
 
 TEST_CASE("A key that stands twice is refused, in one object only") {
   CHECK_THROWS_WITH(parse_json(R"({"a": 1, "b": {"a": 1}, "a": 2})", "f.json"),
-                    Contains("f.json: the key \"a\" stands twice"));
+                    Contains("f.json: the key \"a\" occurs twice"));
   CHECK_NOTHROW(parse_json(R"([{"a": 1}, {"a": {"a": 1}}])", "f.json"));
 }
 

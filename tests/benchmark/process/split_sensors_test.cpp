@@ -47,9 +47,9 @@ class Masks : public RemovalSink {
 Sequence merged(const TemporaryFolder& folder) {
   const std::string head =
       "VERSION 0.7\nFIELDS x y z lidar\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 1\n"
-      "HEIGHT 1\nDATA ascii\nWIDTH ";
-  folder.write("0.pcd", head + "4\nPOINTS 4\n2 0 0 7\n2 0 0 3\n6 0 0 3\n4 0 0 7\n");
-  folder.write("1.pcd", head + "3\nPOINTS 3\n6 0 0 7\n8 0 0 7\n1 0 0 3\n");
+      "HEIGHT 1\nWIDTH ";
+  folder.write("0.pcd", head + "4\nPOINTS 4\nDATA ascii\n2 0 0 7\n2 0 0 3\n6 0 0 3\n4 0 0 7\n");
+  folder.write("1.pcd", head + "3\nPOINTS 3\nDATA ascii\n6 0 0 7\n8 0 0 7\n1 0 0 3\n");
   folder.write("poses.txt", "1 0 0 10 0 1 0 0 0 0 1 0\n1 0 0 20 0 1 0 0 0 0 1 0\n");
   SequenceOptions options;
   options.sensor_origin = parse_sensor_places("lidar:3=0,0,0/7=4,0,0");
@@ -65,7 +65,8 @@ TEST_CASE("each sensor of a merged cloud has a scan of its own, and masks are th
   auto method = std::make_unique<NearRemover>();
   const NearRemover& remover = *method;
   Masks masks;
-  with_split_sensors(std::move(method), sequence)->run(*sequence.scans, masks, {});
+  const auto split = with_split_sensors(std::move(method), sequence);
+  split->run(*sequence.scans, masks, {});
   // From sensor 7 at x = 4 the points at x = 2, 6 and 8 are 2, 2 and 4 m away; from sensor 3 at
   // x = 0 those at x = 2, 6 and 1 are 2, 6 and 1 m away.
   CHECK(masks.all == std::map<std::size_t, Mask>{{0, {1, 1, 0, 0}}, {1, {1, 0, 1}}});

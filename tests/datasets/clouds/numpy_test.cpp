@@ -185,7 +185,7 @@ TEST_CASE("what is no array of points is named", "[numpy]") {
     check_says(npy_error(npy("'<f4'", shape, body)), {"expected N x 3 numbers"});
   }
   check_says(npy_error(npy("'<f4'", "(4294967295, 4294967295, 4)", body)), {"truncated"});
-  check_says(npy_error(npy("'<f4'", "(4294967296, 4)", body)), {"no count"});
+  check_says(npy_error(npy("'<f4'", "(4294967296, 4)", body)), {"not a count"});
   check_says(npy_error(npy("'<f4'", "(-1, 4)", body)), {"is damaged at its column"});
   for (const char* type : {"'|O'", "'<f2'", "'<f16'", "'<x4'", "'<f'", "''", "'<i3'"}) {
     check_says(npy_error(npy(type, "(1, 4)", body)), {"which is not read", "expected numbers"});

@@ -204,7 +204,7 @@ TEST_CASE("arrays of matrices are read", "[trajectories]") {
              {"2 poses", "bytes for 1", "truncated"});
   check_says(error_of(npy("(4, 4)", pose), {}, "p.npy"), {"an array of 4 x 4"});
   check_says(error_of(npy("(1000000000, 4, 4)", pose), {}, "p.npy"), {"bytes for 1"});
-  check_says(error_of(npy("(1000000000000, 4, 4)", pose), {}, "p.npy"), {"no count"});
+  check_says(error_of(npy("(1000000000000, 4, 4)", pose), {}, "p.npy"), {"not a count"});
   check_says(error_of("\x93NUMPY\x01", {}, "p.npy"), {"p.npy: is not a .npy file"});
 }
 

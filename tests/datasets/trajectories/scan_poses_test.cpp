@@ -144,7 +144,7 @@ TEST_CASE("poses of a body are taken to its sensor", "[trajectories]") {
   folder.write("T.txt", "1 2 3\n");
   check_says(open_error(folder, options), {"T.txt: has 3 numbers", "x,y,z,qx,qy,qz,qw"});
   options.T_sensor = "nothing";
-  check_says(open_error<UsageError>(folder, options), {"--T-sensor nothing", "no file"});
+  check_says(open_error<UsageError>(folder, options), {"--T-sensor nothing", "is not a file"});
   options.T_sensor = "2,0,0,0,0,0,9";
   check_says(open_error(folder, options), {"--T-sensor 2,0,0", "length 9"});
 }
