@@ -285,6 +285,23 @@ def worked_cases():
     ]
 
 
+def objects():
+    """Objects by instance id: parked and moving ones, one of each with too few points, cars that
+    park in one scan and move in another. Each loses another share of its points, some all but 5 %."""
+    generator = random.Random(8)
+    words = [10 | 1 << 16, 10 | 2 << 16, 252 | 2 << 16, 20 | 3 << 16, 254 | 4 << 16, 259 | 5 << 16,
+             30 | 6 << 16, 253 | 7 << 16, 40, 70 | 8 << 16, 1 | 9 << 16]
+    lost = [0.0, 0.5, 0.96, 0.05, 0.95, 0.94, 0.3, 1.0, 0.5, 0.06, 0.5]
+    scans, removed = [], []
+    for _ in range(3):
+        scan = [(generator.uniform(3, 8), generator.uniform(3, 8), generator.uniform(-1, 2), word)
+                for word in words for _ in range(100 if word >> 16 != 6 else 60)]
+        seen = [lost[words.index(word)] for *_, word in scan]
+        scans.append(scan)
+        removed.append([i % 100 < round(100 * share) for i, share in enumerate(seen)])
+    return Case("objects", scans, removed=removed)
+
+
 def cases():
     """All of them."""
     static, moving = [40, 50], [252, 254]
@@ -299,7 +316,7 @@ def cases():
             {"dynamicmap": {"distance": 0.5}}]),
         turned("turned", (0, 0, 0)), turned("far", far), maps(),
         oblique("oblique", (0, 0, 0)), oblique("utm", (430123.0, 5400321.0, 250.0)),
-        clouds(), *worked_cases(),
+        clouds(), objects(), *worked_cases(),
         one_sided("nothing_moves", static, 0.4), one_sided("all_moves", moving, 0.4),
         one_sided("nothing_removed", static + moving, 0.0),
         one_sided("all_removed", static + moving, 1.0),

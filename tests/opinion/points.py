@@ -4,7 +4,7 @@ from collections import defaultdict
 
 from dynamicmap import is_present
 from erasor import Buckets
-from sequence_files import distance_to_sensor, returns
+from sequence_files import distance_to_sensor, returns_with_words
 
 RANGES = [(0, 10, "0-10 m"), (10, 20, "10-20 m"), (20, 30, "20-30 m"), (30, 40, "30-40 m"),
           (40, 50, "40-50 m"), (50, float("inf"), "50 m and more")]
@@ -22,11 +22,32 @@ NAMES = {
 SENSOR_HEIGHT = 1.73  # metres
 CROP = 2.7  # metres
 NEAR = 0.05  # metres
+FEWEST_POINTS = 200  # of an object
 
 
 def bin_of(value, bins):
     """The name of the bin of a value; its lower end belongs to it."""
     return next(name for low, high, name in bins if low <= value < high)
+
+
+def of_objects(objects, moving, names):
+    """The columns of objects. objects: [removed or not, ...] by (class, instance)."""
+    large = {key: answers for key, answers in objects.items() if len(answers) >= FEWEST_POINTS}
+    kept = []
+    for (label, instance), answers in large.items():
+        moving_names = {names.get(other, f"label-{other}") for other, its in objects if its == instance}
+        if label not in moving and "moving-" + names.get(label, f"label-{label}") not in moving_names:
+            kept.append((answers.count(False), len(answers)))
+    gone = [answers.count(True) / len(answers) for (label, _), answers in large.items() if label in moving]
+    columns = {}
+    if kept:
+        columns["parked"] = (sum((2 * 10**6 * part + whole) // (2 * whole) for part, whole in kept),
+                             10**6 * len(kept))
+        columns["parked worst"] = min(kept, key=lambda share: share[0] / share[1])
+        columns["parked below 95 %"] = (sum(part / whole < 0.95 for part, whole in kept), len(kept))
+    if gone:
+        columns["trails"] = (sum(share >= 0.95 for share in gone), len(gone))
+    return columns
 
 
 def values(sequence, names=None, cloud=None):
@@ -38,12 +59,14 @@ def values(sequence, names=None, cloud=None):
     names = NAMES if names is None else names
     buckets = None if cloud is None else Buckets(cloud, NEAR)
     columns = defaultdict(lambda: [0, 0])
+    objects = defaultdict(list)
 
     def count(name, hit):
         columns[name][0] += hit
         columns[name][1] += 1
 
-    for scan, point, label, removed in returns(sequence):
+    for scan, point, word, removed in returns_with_words(sequence):
+        label, instance = word & 0xFFFF, word >> 16
         if buckets:
             removed = not is_present(buckets, scan.world(*point), NEAR)
         distance = distance_to_sensor(point)
@@ -52,6 +75,8 @@ def values(sequence, names=None, cloud=None):
         if point[0] * point[0] + point[1] * point[1] < CROP * CROP:
             continue
         moves = label in sequence.moving
+        if instance:
+            objects[label, instance].append(bool(removed))
         if removed:
             count("precision", moves)
         else:
@@ -67,4 +92,5 @@ def values(sequence, names=None, cloud=None):
             count(f"{name} [{what}]", hit)
         for what in (of_range, of_height):
             count(f"{name} [{of_class}, {what}]", hit)
-    return {name: tuple(numbers) for name, numbers in columns.items()}
+    return {name: tuple(numbers) for name, numbers in columns.items()} | of_objects(
+        objects, sequence.moving, names)

@@ -142,7 +142,13 @@ def distance_to_sensor(point):
 
 def returns(sequence):
     """The points that are returns, with what is known of each: (scan, point, label id, removed)."""
+    for scan, point, word, removed in returns_with_words(sequence):
+        yield scan, point, word & 0xFFFF, removed
+
+
+def returns_with_words(sequence):
+    """The same with the whole label word, of which the upper 16 bits are the instance id."""
     for scan in sequence.scans:
         for point, word, removed in zip(scan.points, scan.words, scan.removed):
             if is_return(point):
-                yield scan, point, word & 0xFFFF, removed
+                yield scan, point, word, removed
