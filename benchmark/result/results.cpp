@@ -254,13 +254,23 @@ std::vector<Sweep> sweeps_of(const RunResults& results) {
   return sweeps;
 }
 
+/// The share of a column in percent, with a digit behind the point; empty without a value.
+static std::string column_text(const Cell& cell, const std::string& name) {
+  if (!cell.columns) return "";
+  for (const ColumnValue& column : cell.columns->values) {
+    if (column.name != name) continue;
+    if (const auto percent = column.share.percent()) return fixed_text(*percent, 1);
+  }
+  return "";
+}
+
 std::string results_csv(const RunResults& results) {
   std::vector<std::string> rates;
   for (const RateSpec& spec : rate_specs()) {
     if (spec.role != RateRole::kSecondary) rates.push_back(spec.name);
   }
   std::string csv = "sequence,method,variant,protocol,status," + join(rates, ",") +
-                    ",seconds_per_scan,peak_memory_mib,name\n";
+                    ",parked,trails,seconds_per_scan,peak_memory_mib,name\n";
   for (const Cell& cell : results.cells) {
     for (const std::string& protocol : results.protocols) {
       csv += csv_text(cell.sequence) + "," + csv_text(cell.method.name) + "," +
@@ -271,6 +281,7 @@ std::string results_csv(const RunResults& results) {
         const auto value = score == nullptr ? std::nullopt : score->rate(rate);
         csv += "," + (value ? rate_text(rate, *value) : "");
       }
+      for (const char* column : {"parked", "trails"}) csv += "," + column_text(cell, column);
       const Measurement measured = cell.measured.value_or(Measurement{});
       csv += "," + (cell.measured ? fixed_text(measured.mean_seconds, 6) : "") + ",";
       if (measured.peak_memory_mib) csv += fixed_text(*measured.peak_memory_mib, 1);

@@ -58,6 +58,7 @@ std::string rate_words(const RateGrid& grid, const TableOptions& options) {
             "_of_means is the " + rate + " of mean " + spec.formula->first + " and mean " +
             spec.formula->second + ".";
   }
+  if (!grid.shares.empty()) text += " " + std::string(kObjectWords);
   text += " n/a: undefined or not run";
   if (averages) text += "; (4/5): the mean is over the 4 of 5 sequences that have a value";
   return text + ".";
@@ -116,7 +117,9 @@ std::vector<TextTable> run_tables(const RateGrid& grid, const RunResults& result
 std::vector<TextTable> accuracy_tables(const RunResults& results, const std::string& protocol,
                                        const TableOptions& options) {
   RateGrid grid = run_grid(results, protocol, options, false);
-  grid.timed = shows_time(options) && options.layout == TableLayout::kMethodRows;
+  const bool by_method = options.layout == TableLayout::kMethodRows;
+  if (by_method && options.rates.empty()) grid.shares = object_shares(results);
+  grid.timed = shows_time(options) && by_method;
   for (const OutsideColumn& given : options.outside) {
     if (given.protocol != results.kind_of(protocol) || !shares_sequence(given, results)) continue;
     grid.methods.push_back(outside_rates(results.sequences, given, &OutsideRow::beside));

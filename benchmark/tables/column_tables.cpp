@@ -217,31 +217,24 @@ std::vector<TextTable> compact_column_tables(const RunResults& results) {
   if (methods.empty()) return {};
   std::vector<std::string> columns = {"precision",    "recall",      "residue",
                                       "preservation", "worst mover", "worst static class"};
-  std::vector<std::string> of_objects;
-  for (const char* name : {"parked", kWorstParked, "trails"}) {
-    if (most_points(methods, name) > 0) of_objects.push_back(name);
-  }
-  columns.insert(columns.begin(), of_objects.begin(), of_objects.end());
+  const bool has_objects = most_points(methods, kWorstParked) > 0;
+  if (has_objects) columns.push_back(kWorstParked);
   TextTable table{"Points removed", "method", {{"", columns}}};
   for (const MethodColumns* method : methods) {
     TableRow& row = table.rows.emplace_back(TableRow{method->cell, {}});
-    for (const std::string& name : of_objects) {
-      row.cells.push_back({percent_text(method->find(name))});
-    }
     for (const char* name : {"precision", "recall", "residue", "preservation"}) {
       row.cells.push_back({percent_text(method->find(name))});
     }
     row.cells.push_back({worst_class(*method, "rejection")});
     row.cells.push_back({worst_class(*method, "preservation")});
+    if (has_objects) row.cells.push_back({percent_text(method->find(kWorstParked))});
   }
   table.notes.push_back(
       "In percent of points, all sequences together. precision: share of removed points that move; "
       "recall: share of moving points that are removed; residue: share of kept points that move; "
       "preservation: share of static points that are kept. " +
-      std::string(of_objects.empty() ? ""
-                                     : "parked: share of the points of a parked object that are "
-                                       "kept, mean and worst; trails: share of moving objects of "
-                                       "which at least 95 % is removed. ") +
+      std::string(has_objects ? "parked worst: share kept of the parked object that loses most. "
+                              : "") +
       "Of the classes with " + std::to_string(kNamedClassPoints) +
       " points or more, the worst are shown. `raymoval table RUN --columns` has every class, range "
       "and height.");

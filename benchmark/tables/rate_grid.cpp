@@ -9,6 +9,25 @@
 namespace raymoval {
 namespace {
 
+using Shares = std::map<std::string, double>;
+
+void add_share(const std::string& name, const Share& share, Shares& shares) {
+  if (const auto percent = share.percent()) shares[name] = *percent;
+}
+
+void add_shares(const RateGrid& grid, const Shares& shares, std::vector<TableCell>& cells) {
+  for (const std::string& name : grid.shares) {
+    const auto share = shares.find(name);
+    cells.push_back(share == shares.end() ? TableCell{"-"} : number_cell(share->second, 1));
+  }
+}
+
+/// The columns of shares and times behind the rates.
+void add_headings(const RateGrid& grid, std::vector<std::string>& columns) {
+  columns.insert(columns.end(), grid.shares.begin(), grid.shares.end());
+  if (grid.timed) columns.emplace_back(kTimeHeading);
+}
+
 /// The rates of a method on a sequence, or the status without rates, and its time if the grid has
 /// times.
 std::vector<TableCell> sequence_cells(const RateGrid& grid, const MethodRates& method,
@@ -20,6 +39,7 @@ std::vector<TableCell> sequence_cells(const RateGrid& grid, const MethodRates& m
     cells.push_back(value ? rate_cell(options, rate, *value, method.printed_digits)
                           : TableCell{status.empty() || status == "ok" ? "n/a" : status});
   }
+  add_shares(grid, method.shares.empty() ? Shares() : method.shares[sequence], cells);
   if (grid.timed) cells.push_back(number_or(method.ms[sequence], 1, grid.no_time));
   return cells;
 }
@@ -81,6 +101,7 @@ std::vector<GridColumn> grid_columns(const RateGrid& grid, bool of_means) {
       columns.push_back({spec.name + "_of_means", spec.higher_is_better});
     }
   }
+  for (const std::string& share : grid.shares) columns.push_back({share, true});
   if (grid.timed) columns.push_back({kTimeRate, false});
   return columns;
 }
@@ -130,7 +151,7 @@ TextTable mean_block(const RateGrid& grid, const TableOptions& options) {
   for (const RateSpec& spec : of_means) {
     table.groups[0].columns.push_back(spec.name + "_of_means");
   }
-  if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
+  add_headings(grid, table.groups[0].columns);
   for (const MethodRates& method : grid.methods) {
     if (method.printed_digits > 0 && !is_complete(method)) continue;
     TableRow row = mean_row(grid, method, options);
@@ -229,15 +250,35 @@ MethodRates method_rates(const RunResults& results, const std::string& method,
     const bool timed = cell != nullptr && cell->ok() && cell->measured;
     row.by_sequence.push_back(score == nullptr ? nullptr : &score->rates);
     row.status.emplace_back(cell == nullptr ? "" : status_name(cell->status));
+    Shares& shares = row.shares.emplace_back();
+    if (cell != nullptr && cell->columns) {
+      for (const ColumnValue& value : cell->columns->values) {
+        add_share(value.name, value.share, shares);
+      }
+    }
     row.ms.push_back(timed ? std::optional(1000.0 * cell->measured->mean_seconds) : std::nullopt);
   }
   row.mean_ms = results.ms_per_scan(method);
+  for (const MethodColumns& columns : results.columns) {
+    if (columns.cell != method) continue;
+    for (const auto& [name, share] : columns.values) add_share(name, share, row.mean_shares);
+  }
   return row;
+}
+
+std::vector<std::string> object_shares(const RunResults& results) {
+  std::vector<std::string> names;
+  for (const char* name : {"parked", "trails"}) {
+    const bool there = std::ranges::any_of(
+        results.columns, [&](const MethodColumns& method) { return method.find(name).whole > 0; });
+    if (there) names.emplace_back(name);
+  }
+  return names;
 }
 
 TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
   TextTable table{grid.title, "method", {{"", grid.rates}}};
-  if (grid.timed) table.groups[0].columns.emplace_back(kTimeHeading);
+  add_headings(grid, table.groups[0].columns);
   for (std::size_t i = 0; i < grid.sequences.size(); ++i) {
     for (const MethodRates& method : grid.methods) {
       // Published rates are shown for their own sequences only.
@@ -251,6 +292,7 @@ TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
 
 TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options) {
   TableRow row{method.heading, mean_cells(grid, method, options)};
+  add_shares(grid, method.mean_shares, row.cells);
   if (grid.timed) row.cells.push_back(number_or(method.mean_ms, 1, grid.no_time));
   return row;
 }

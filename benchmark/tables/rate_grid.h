@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct MethodRates {
   std::vector<std::string> status = {};                    ///< Shown where there are no rates.
   std::vector<std::optional<double>> ms = {};              ///< Per scan, by sequence.
   std::optional<double> mean_ms = std::nullopt;            ///< Over all scans.
+  /// Shares of `RateGrid::shares` in percent, by sequence and over all of them.
+  std::vector<std::map<std::string, double>> shares = {};
+  std::map<std::string, double> mean_shares = {};
   int printed_digits = 0;  ///< Decimals that were printed elsewhere; 0: rates of the run.
 
   /// The values of a rate on the sequences.
@@ -35,10 +39,20 @@ struct RateGrid {
   std::vector<std::string> sequences;
   std::vector<MethodRates> methods;
   std::vector<std::string> rates;
-  bool ranked = true;         ///< Whether best and second are marked and means are shown.
-  bool timed = false;         ///< Whether times are shown beside the rates.
-  const char* no_time = "-";  ///< Text for an unknown time.
+  bool ranked = true;  ///< Whether best and second are marked and means are shown.
+  std::vector<std::string> shares = {};  ///< Columns that are shown beside the rates.
+  bool timed = false;                    ///< Whether times are shown beside the rates.
+  const char* no_time = "-";             ///< Text for an unknown time.
 };
+
+/// What the columns of objects are, for the notes of tables.
+inline constexpr const char* kObjectWords =
+    "parked: share of the points of a parked object that are kept, mean over objects; trails: "
+    "share "
+    "of moving objects of which at least 95 % is removed; in percent, by the instances of labels.";
+
+/// The columns of objects that some cell of the run has: `parked`, `trails`.
+std::vector<std::string> object_shares(const RunResults& results);
 
 /// A row for each method in a block for each sequence, in the order of the grid, without marks.
 TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "benchmark/tables/rate_grid.h"
 #include "benchmark/tables/tables.h"
 #include "benchmark/tables/text/text_table.h"
 #include "core/text.h"
@@ -75,11 +76,19 @@ TextTable method_summary(const RunResults& results, const std::vector<std::strin
     const bool other = several && columns[i].protocol != results.protocols.front();
     table.groups[0].columns.push_back((other ? columns[i].protocol + " " : "") + columns[i].rate);
   }
+  const std::vector<std::string> shares = object_shares(results);
+  table.groups[0].columns.insert(table.groups[0].columns.end(), shares.begin(), shares.end());
   table.groups[0].columns.insert(table.groups[0].columns.end(), {kTimeHeading, "peak MiB"});
   for (const std::string& method : methods) {
     TableRow row{shortened_middle(method, kMostName), {}};
     for (const SummaryColumn& column : columns) {
       row.cells.push_back(summary_cell(results, method, column));
+    }
+    for (const std::string& share : shares) {
+      const auto of_method = std::ranges::find(results.columns, method, &MethodColumns::cell);
+      const bool known = of_method != results.columns.end();
+      row.cells.push_back(
+          number_or(known ? of_method->find(share).percent() : std::nullopt, 1, "-"));
     }
     for (TableCell& cell : cost_cells(results, method, "-")) row.cells.push_back(cell);
     table.rows.push_back(std::move(row));
@@ -87,7 +96,10 @@ TextTable method_summary(const RunResults& results, const std::vector<std::strin
   for (std::size_t i = 0; i < columns.size(); ++i) {
     mark_best(table, i, rate_spec(columns[i].rate).higher_is_better);
   }
-  for (const std::size_t cost : {0U, 1U}) mark_best(table, columns.size() + cost, false);
+  for (std::size_t i = 0; i < shares.size(); ++i) mark_best(table, columns.size() + i, true);
+  for (const std::size_t cost : {0U, 1U}) {
+    mark_best(table, columns.size() + shares.size() + cost, false);
+  }
   return table;
 }
 

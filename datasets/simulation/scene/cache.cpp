@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Increased whenever the same files would give other bytes.
-constexpr const char* kSimulatorVersion = "1";
+constexpr const char* kSimulatorVersion = "2";
 
 std::string identity(const SimulationOptions& options, const simulated::NamedText& world,
                      const simulated::NamedText& sensor, std::size_t scans) {

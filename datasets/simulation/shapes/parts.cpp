@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
+#include <string>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -236,10 +238,21 @@ const std::vector<std::string>& part_names() {
 
 Mesh make_part(const PartSpec& spec, std::uint16_t instance, Random& random) {
   for (const auto& [name, maker] : makers()) {
-    if (name == spec.part) return maker(spec, instance, random);
+    if (name != spec.part) continue;
+    Mesh mesh = maker(spec, instance, random);
+    for (Paint& paint : mesh.paints) {
+      paint.label = (static_cast<std::uint32_t>(instance) << 16) | (paint.label & 0xFFFFU);
+    }
+    return mesh;
   }
   throw ConfigurationError("unknown part '" + spec.part + "'." +
                            suggestion(spec.part, part_names()));
+}
+
+bool has_instance(const std::string& part) {
+  static const std::set<std::string> objects = {"lamp_post", "sign",    "traffic_light", "bin",
+                                                "bicycles",  "bollard", "container"};
+  return part.starts_with("parked") || objects.count(part) != 0;
 }
 
 bool is_continuous(const std::string& part) {

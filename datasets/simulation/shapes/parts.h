@@ -34,7 +34,7 @@ const std::vector<std::string>& part_names();
 /// One individual. Frame: x along the road, y away from it (the side towards the road is y = 0 for
 /// buildings, fences and the like; poles, trees and vehicles are around the origin), z = 0 on the
 /// ground.
-/// @param instance number of the object, if it has an instance id (vehicles)
+/// @param instance number of the object, if it has an instance id; else 0
 /// @throws ConfigurationError for an unknown name, suggesting the nearest one.
 Mesh make_part(const PartSpec& spec, std::uint16_t instance, Random& random);
 
@@ -64,6 +64,10 @@ Mesh make_ceiling(const PartSpec& spec, Random& random);
 
 /// Whether a part fills the whole length of its place in a row (fence, hedge).
 bool is_continuous(const std::string& part);
+
+/// Whether a part is a single object with an instance id: parked vehicles and bicycles, poles,
+/// signs, bins and containers.
+bool has_instance(const std::string& part);
 /// Radius of a part around its place, to keep it off other roads.
 double footprint_radius(const PartSpec& spec);
 
