@@ -63,6 +63,6 @@ TEST_CASE("sequence.json may say which way is up", "[up]") {
   CHECK(up_with("\"-y\"") == Vector3d(0, -1, 0));
   CHECK(up_with("[0, 2, 0]") == Vector3d(0, 1, 0));
   for (const char* bad : {"\"\"", "\"down\"", "[0, 0, 0]", "[1, 2]", "1", "[\"a\", 0, 1]"}) {
-    CHECK_THROWS_WITH(up_with(bad), Contains("sequence.json: up") && Contains("no direction"));
+    CHECK_THROWS_WITH(up_with(bad), Contains("sequence.json: up") && Contains("not a direction"));
   }
 }
