@@ -139,7 +139,7 @@ void World::add_row(const RowSpec& row, std::uint64_t seed, std::uint64_t number
 
 void World::add_place(const PlaceSpec& place, std::uint64_t seed, std::uint64_t number) {
   Random random(seed, Purpose::kPart, number);
-  const std::uint16_t instance = place.has_instance(part.part) ? next_instance() : 0;
+  const std::uint16_t instance = has_instance(place.part.part) ? next_instance() : 0;
   add_static(make_part(place.part, instance, random),
              placed(place.at.x(), place.at.y(), ground_->height(place.at), place.yaw_rad));
 }

@@ -123,7 +123,7 @@ TEST_CASE("A method that fails is a cell with a reason, and the rest goes on") {
   // A row per cell, failed ones included, and the heading.
   const std::string csv = read_text(out / "results.csv");
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 12);
-  CHECK_THAT(csv, Contains("street,throws,v,erasor,failed,,,,,,,,,,,,,throws:v"));
+  CHECK_THAT(csv, Contains("street,throws,v,erasor,failed,,,,,,,,,,,,,,,throws:v"));
 }
 
 TEST_CASE("A cell that is there, right and whole is not run again, and anything else is",

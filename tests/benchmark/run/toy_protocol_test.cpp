@@ -96,9 +96,8 @@ TEST_CASE("A protocol of one's own is in every output", "[slow]") {
 
   // CSV: its main rates are behind those of the built-in protocols.
   const std::string csv = read_text(out / "results.csv");
-  CHECK_THAT(
-      csv,
-      Contains("PR,RR,F1,SA,DA,AA,HA,precision,recall,IoU,lost,left,mistakes,seconds_per_scan"));
+  CHECK_THAT(csv, Contains("PR,RR,F1,SA,DA,AA,HA,precision,recall,IoU,lost,left,mistakes,parked,"
+                           "trails,seconds_per_scan"));
   CHECK_THAT(csv, Contains("street,thin,v,toy,ok,,,,,,,,,,,0.1"));
 
   // Tables: the fewest mistakes are the best, also in the sweep and in the ranking.

@@ -107,8 +107,8 @@ TEST_CASE("The CSV has rates to 3 decimals, F1 to 4, and nothing where undefined
   results.cells[0].measured.emplace().mean_seconds = 0.25;
   results.cells[0].measured->peak_memory_mib = 12.34;
   const std::string csv = results_csv(results);
-  CHECK_THAT(csv, Contains("\ns1,x,v,erasor,ok,90.000,60.000,0.7200,,,,,,,,0.250000,12.3,x\n"));
-  CHECK_THAT(csv, Contains("\ns2,y_1,v,erasor,ok,50.000,,,,,,,,,,,,y_1\n"));
+  CHECK_THAT(csv, Contains("\ns1,x,v,erasor,ok,90.000,60.000,0.7200,,,,,,,,,,0.250000,12.3,x\n"));
+  CHECK_THAT(csv, Contains("\ns2,y_1,v,erasor,ok,50.000,,,,,,,,,,,,,,y_1\n"));
 }
 
 TEST_CASE("Outside columns stand beside the run where a sequence is in both") {
@@ -277,7 +277,7 @@ TEST_CASE("A sort puts the best first in all that is listed by method") {
   // F1: 0.77 of x, 0.8 of y_1 on s1, where it is better too; on s2 it has none.
   const RunResults by_f1 = sorted("F1");
   CHECK(by_f1.methods == std::vector<std::string>{"y_1", "x"});
-  CHECK_THAT(results_csv(by_f1), Contains("\ns1,y_1,v,erasor,ok,80.000,80.000,0.8000,,,,,,,,,,y_1\n"
+  CHECK_THAT(results_csv(by_f1), Contains("\ns1,y_1,v,erasor,ok,80.000,80.000,0.8000,,,,,,,,,,,,y_1\n"
                                           "s1,x,") &&
                                      Contains("x\ns2,x,"));
   CHECK(sorted("PR").methods == std::vector<std::string>{"x", "y_1"});
