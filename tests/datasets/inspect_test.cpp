@@ -361,8 +361,9 @@ TEST_CASE("positions and points beyond the reach of voxels are found", "[inspect
     for (const double far : {1.01 * kUsualReach, 1e9, 1e16, 1e300}) {
       drive = good_drive();
       drive.scans[7].T_world_sensor.translation().y() = far;
-      INFO(far << "\n" << text_of(drive.inspected()));
-      CHECK(found(drive.inspected()).contains("out-of-reach"));
+      const InspectionReport report = drive.inspected();
+      INFO(far << "\n" << text_of(report));
+      CHECK(found(report).contains("out-of-reach"));
     }
   }
   SECTION("a height") {
