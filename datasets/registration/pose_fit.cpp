@@ -30,7 +30,9 @@ constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
 constexpr double kLeastReturn = 1.5;  // metres
 constexpr std::size_t kLeastMatched = 150;
 constexpr double kLeastOverlap = 0.25;
-constexpr double kClearGain = 1.2;
+/// Least gain in overlap, and the larger gain that is needed if the shift of points is mostly along
+/// the surfaces: less than `kMostlyAcross` of it is across them, but at least `kLeastAcross`.
+constexpr double kClearGain = 1.2, kClearerGain = 1.3, kMostlyAcross = 0.4, kLeastAcross = 0.3;
 constexpr std::size_t kFewestPairs = 4;  // Fewer are no basis: one in some hundred is misjudged.
 constexpr std::size_t kBatch = 32;       // Pairs whose scans are in memory together.
 
@@ -176,10 +178,14 @@ class SurfaceClouds {
 namespace {
 
 /// Whether a registration is conclusive: scans overlap enough, and if surfaces are moved far, they
-/// fit clearly better.
+/// fit clearly better, and points are not moved along surfaces much farther, as if these constrain
+/// the motion too little (a narrow view of a wall).
 bool is_clear(const Registration& found) {
   if (found.matched < kLeastMatched || found.overlap < kLeastOverlap) return false;
-  return found.shift <= kMostDistance || found.overlap >= kClearGain * found.overlap_of_guess;
+  if (found.shift <= kMostDistance) return true;
+  const double across = found.shift / found.shift_of_points;
+  const double gain = across >= kMostlyAcross ? kClearGain : kClearerGain;
+  return across >= kLeastAcross && found.overlap >= gain * found.overlap_of_guess;
 }
 
 }  // namespace

@@ -149,11 +149,15 @@ Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, co
   best.matched = matches.size();
   best.noise = robust_deviation(matches);
   const Pose back = guess * best.T_from_to.inverse();
-  double square = 0.0;
+  double square = 0.0, square_of_points = 0.0;
   for (const Match& match : matches) {
-    square += std::pow(match.normal.dot(back * match.at - match.at), 2);
+    const Vector3d moved = back * match.at - match.at;
+    square += std::pow(match.normal.dot(moved), 2);
+    square_of_points += moved.squaredNorm();
   }
-  if (!matches.empty()) best.shift = std::sqrt(square / static_cast<double>(matches.size()));
+  if (matches.empty()) return best;
+  best.shift = std::sqrt(square / static_cast<double>(matches.size()));
+  best.shift_of_points = std::sqrt(square_of_points / static_cast<double>(matches.size()));
   return best;
 }
 

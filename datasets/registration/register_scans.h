@@ -14,6 +14,7 @@ struct Registration {
   double overlap_of_guess = 0.0;  ///< The same under the guess.
   double noise = 0.0;             ///< Robust standard deviation of distances after registration.
   double shift = 0.0;  ///< RMS along the normals by which registration moved the surfaces.
+  double shift_of_points = 0.0;  ///< The same in any direction.
 };
 
 /// Registers `to` to `from`, starting from a guess of T_from_to with an error of up to about 3 m

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kFarPairs = 8, kFewestFarPairs = 3;
 constexpr double kDistance = 6.0;      // metres of path between the scans of a pair
+constexpr double kMostStep = 4.5;      // metres to the next scan, else scans are left out between
 constexpr double kReach = 0.1;         // metres; skew moves surfaces by decimetres
 constexpr double kLeastAcross = 0.05;  // share of surfels
 constexpr double kClear = 1.03;        // on good data undoing a skew makes the agreement worse
@@ -134,6 +135,7 @@ SkewFit fit_sweeps(const Samples& samples, const std::vector<ScanPair>& pairs) {
 /// them agree worse; in other scans, both make them agree worse.
 std::vector<Finding> look_for_skew(Samples& samples) {
   if (!pose_verdict(samples).check.empty()) return {};
+  if (samples.median_step() > kMostStep) return {};
   const std::vector<ScanPair> pairs = far_pairs(samples);
   if (pairs.size() < kFewestFarPairs) return {};
   double across = 0.0;

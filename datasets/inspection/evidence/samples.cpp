@@ -121,6 +121,14 @@ std::string Samples::pose_source() const {
   return sequence_.poses_file.empty() ? "poses" : sequence_.poses_file;
 }
 
+double Samples::median_step() const {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < poses_.size(); ++i) {
+    steps.push_back((poses_[i].translation() - poses_[i - 1].translation()).norm());
+  }
+  return steps.empty() ? 0.0 : median(std::move(steps));
+}
+
 std::vector<Scan> Samples::some_scans(std::size_t most) const {
   std::vector<std::size_t> all;
   for (const auto& [index, scan] : scans_) all.push_back(index);

@@ -49,6 +49,8 @@ class Samples {
   /// At most `most` of these scans, evenly spread.
   [[nodiscard]] std::vector<Scan> some_scans(std::size_t most) const;
   [[nodiscard]] const std::vector<ScanPair>& pairs() const { return pairs_; }
+  /// Distance from a scan to the next, metres: the median over the whole sequence.
+  [[nodiscard]] double median_step() const;
   /// Factor from stored points to metres: 1, or 0.001 if half of the points are implausibly far for
   /// metres.
   [[nodiscard]] double point_scale() const { return point_scale_; }
