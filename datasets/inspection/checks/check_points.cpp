@@ -12,6 +12,7 @@
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/reading/left_out.h"
 
 namespace raymoval::inspection {
@@ -187,6 +188,7 @@ std::vector<double> sorted_ranges(const Scan& scan) {
 std::vector<Finding> look_for_truncation(Samples& samples) {
   constexpr double kEqual = 0.02, kBand = 0.05, kCliff = 0.5, kLeast = 0.002;
   constexpr double kShareOfSensor = 0.6, kUnknownSensor = 60.0;
+  if (has_one_viewpoint(samples)) return {};  // Ranges are not those of the sensor.
   double nearest = 1e300, farthest = 0.0, last = 0.0, before = 0.0;
   for (const auto& [index, scan] : samples.scans()) {
     const std::vector<double> ranges = sorted_ranges(scan);

@@ -140,27 +140,12 @@ constexpr const char* kWriteViewpoint =
     "Write the position and attitude of the sensor at each scan into its VIEWPOINT; points in the "
     "world frame do not contain the position of the sensor.";
 
-/// Whether all files have one VIEWPOINT, though their points move from scan to scan.
-bool is_left_at_one_place(const Samples& samples) {
-  constexpr double kLeast = 1.0, kLeastShare = 0.25;  // metres, and of the median range
-  const auto& poses = samples.poses();
-  const bool equal = std::all_of(poses.begin(), poses.end(), [&](const Pose& pose) {
-    return pose.matrix() == poses.front().matrix();
-  });
-  if (!equal) return false;
-  const Eigen::Vector3d first = middle_of(samples.scans().begin()->second);
-  return std::any_of(samples.scans().begin(), samples.scans().end(), [&](const auto& scan) {
-    return (middle_of(scan.second) - first).norm() >
-           std::max(kLeast, kLeastShare * samples.median_range());
-  });
-}
-
 /// Checks VIEWPOINT for points in the world frame, which agree with any VIEWPOINT: there must be no
 /// ground right below the sensor.
 std::vector<Finding> look_for_sensor(Samples& samples) {
   constexpr std::size_t kMany = 8, kFew = 2;
   if (!samples.points_in_world() || !pose_verdict(samples).check.empty()) return {};
-  if (is_left_at_one_place(samples)) {
+  if (has_one_viewpoint(samples)) {
     return {{.check = "viewpoint-missing",
              .what = "VIEWPOINT is the same in all files, but the points move from scan to scan",
              .remedy = kWriteViewpoint}};

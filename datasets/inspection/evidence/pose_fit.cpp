@@ -279,6 +279,21 @@ Eigen::Vector3d middle_of(const Scan& scan) {
   return middle;
 }
 
+bool has_one_viewpoint(const Samples& samples) {
+  if (!samples.points_in_world()) return false;
+  constexpr double kLeast = 1.0, kLeastShare = 0.25;  // metres, and of the median range
+  const auto& poses = samples.poses();
+  const bool equal = std::all_of(poses.begin(), poses.end(), [&](const Pose& pose) {
+    return pose.matrix() == poses.front().matrix();
+  });
+  if (!equal) return false;
+  const Eigen::Vector3d first = middle_of(samples.scans().begin()->second);
+  return std::any_of(samples.scans().begin(), samples.scans().end(), [&](const auto& scan) {
+    return (middle_of(scan.second) - first).norm() >
+           std::max(kLeast, kLeastShare * samples.median_range());
+  });
+}
+
 bool can_measure_fit(Samples& samples) {
   return samples.size() > 1 && samples.point_scale() == 1.0 && pose_verdict(samples).check.empty();
 }

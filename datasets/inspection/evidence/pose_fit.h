@@ -22,6 +22,9 @@ bool can_measure_fit(Samples& samples);
 /// The fit of the poses; without pairs if it cannot be measured.
 const registration::PoseFit& measured_fit(Samples& samples);
 
+/// Whether all files have one VIEWPOINT, although their points move from scan to scan.
+bool has_one_viewpoint(const Samples& samples);
+
 /// Median of every tenth point of a scan, coordinate by coordinate.
 Eigen::Vector3d middle_of(const Scan& scan);
 
