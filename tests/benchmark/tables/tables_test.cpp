@@ -277,9 +277,10 @@ TEST_CASE("A sort puts the best first in all that is listed by method") {
   // F1: 0.77 of x, 0.8 of y_1 on s1, where it is better too; on s2 it has none.
   const RunResults by_f1 = sorted("F1");
   CHECK(by_f1.methods == std::vector<std::string>{"y_1", "x"});
-  CHECK_THAT(results_csv(by_f1), Contains("\ns1,y_1,v,erasor,ok,80.000,80.000,0.8000,,,,,,,,,,,,y_1\n"
-                                          "s1,x,") &&
-                                     Contains("x\ns2,x,"));
+  CHECK_THAT(results_csv(by_f1),
+             Contains("\ns1,y_1,v,erasor,ok,80.000,80.000,0.8000,,,,,,,,,,,,y_1\n"
+                      "s1,x,") &&
+                 Contains("x\ns2,x,"));
   CHECK(sorted("PR").methods == std::vector<std::string>{"x", "y_1"});
   CHECK(sorted(kTimeRate).methods == std::vector<std::string>{"y_1", "x"});
   CHECK(sorted("name").methods == std::vector<std::string>{"x", "y_1"});
