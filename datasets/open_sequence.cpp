@@ -143,15 +143,7 @@ void check_merged(const Sequence& sequence) {
     throw UsageError("--sensor-origin " + sensor_places_text(places) + ": sequence " +
                      sequence.name + " has no fields of points. Leave it out.");
   }
-  const Scan scan = sequence.scans->load(0);
-  for (const std::int64_t number : sensor_numbers(*sequence.records, scan, places.field)) {
-    if (places.by_number.count(number) != 0) continue;
-    throw DataError("scan " + scan.name + ": has points of sensor " + std::to_string(number) +
-                    " (field '" + places.field +
-                    "'), expected the numbers that --sensor-origin "
-                    "gives. Add /" +
-                    std::to_string(number) + "=X,Y,Z to it.");
-  }
+  (void)sensor_positions(*sequence.records, sequence.scans->load(0), places);
 }
 
 void bring_to_sensor_origin(Sequence& sequence) {

@@ -61,18 +61,10 @@ class SensorScans : public ScanSource {
   /// Which points of a merged scan each sensor saw. @throws DataError for an unknown sensor
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> positions(const Scan& whole) const {
     std::vector<std::vector<std::uint32_t>> of_sensor(sensors());
-    const auto numbers = sensor_numbers(records_, whole, places_.field);
-    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
-      const auto found = places_.by_number.find(numbers[i]);
-      if (found == places_.by_number.end()) {
-        throw DataError(
-            fmt::format("scan {}: has points of sensor {} (field '{}'), expected the numbers that "
-                        "--sensor-origin gives. Add /{}=X,Y,Z to it.",
-                        whole.name, numbers[i], places_.field, numbers[i]));
-      }
-      if ((whole.points[i].cast<double>() - found->second).norm() < kAtSensor) continue;
-      const auto k = std::distance(places_.by_number.begin(), found);
-      of_sensor[static_cast<std::size_t>(k)].push_back(i);
+    const std::vector<std::size_t> seen_by = sensor_positions(records_, whole, places_);
+    for (std::uint32_t i = 0; i < seen_by.size(); ++i) {
+      const Eigen::Vector3d beam = whole.points[i].cast<double>() - place(seen_by[i]);
+      if (beam.norm() >= kAtSensor) of_sensor[seen_by[i]].push_back(i);
     }
     return of_sensor;
   }
@@ -104,7 +96,7 @@ class SensorScans : public ScanSource {
   const SensorPlaces& places_;
   SensorChoice sensor_;
   mutable std::mutex mutex_;
-  mutable std::map<std::size_t, Scan> waiting_;  ///< By number; all but the one that was asked for.
+  mutable std::map<std::size_t, Scan> waiting_;  ///< Loaded with another sensor's, by number.
 };
 
 /// Puts the answers for the scans of the sensors together. Points of no sensor get 0.

@@ -64,6 +64,14 @@ std::optional<double> rate_of(const std::vector<Rate>& rates, const std::string&
 struct ColumnRecord {
   std::string version;
   std::vector<ColumnValue> values;
+
+  /// 0 of 0 if there is no such column.
+  [[nodiscard]] Share find(const std::string& name) const {
+    for (const ColumnValue& column : values) {
+      if (column.name == name) return column.share;
+    }
+    return {};
+  }
 };
 
 /// The points that a method removed.

@@ -210,6 +210,11 @@ Share MethodColumns::find(const std::string& name) const {
   return {};
 }
 
+const MethodColumns* RunResults::columns_of(const std::string& method) const {
+  const auto found = std::ranges::find(columns, method, &MethodColumns::cell);
+  return found == columns.end() ? nullptr : &*found;
+}
+
 RunResults shown_results(ResultsRecord results) {
   RunResults shown;
   shown.name = results.run.suite;
@@ -254,16 +259,6 @@ std::vector<Sweep> sweeps_of(const RunResults& results) {
   return sweeps;
 }
 
-/// The share of a column in percent, with a digit behind the point; empty without a value.
-static std::string column_text(const Cell& cell, const std::string& name) {
-  if (!cell.columns) return "";
-  for (const ColumnValue& column : cell.columns->values) {
-    if (column.name != name) continue;
-    if (const auto percent = column.share.percent()) return fixed_text(*percent, 1);
-  }
-  return "";
-}
-
 std::string results_csv(const RunResults& results) {
   std::vector<std::string> rates;
   for (const RateSpec& spec : rate_specs()) {
@@ -281,7 +276,10 @@ std::string results_csv(const RunResults& results) {
         const auto value = score == nullptr ? std::nullopt : score->rate(rate);
         csv += "," + (value ? rate_text(rate, *value) : "");
       }
-      for (const char* column : {"parked", "trails"}) csv += "," + column_text(cell, column);
+      for (const char* column : {kParked, kTrails}) {
+        const auto percent = cell.columns ? cell.columns->find(column).percent() : std::nullopt;
+        csv += "," + (percent ? fixed_text(*percent, 1) : "");
+      }
       const Measurement measured = cell.measured.value_or(Measurement{});
       csv += "," + (cell.measured ? fixed_text(measured.mean_seconds, 6) : "") + ",";
       if (measured.peak_memory_mib) csv += fixed_text(*measured.peak_memory_mib, 1);

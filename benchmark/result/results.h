@@ -92,6 +92,8 @@ struct RunResults {
   [[nodiscard]] const std::string& kind_of(const std::string& protocol) const;
   /// The cell of a sequence and method; null if there is none.
   [[nodiscard]] const Cell* find(const std::string& sequence, const std::string& method) const;
+  /// The columns of a method; null if it has none.
+  [[nodiscard]] const MethodColumns* columns_of(const std::string& method) const;
   /// The data of a sequence; null if no cell has it.
   [[nodiscard]] const DataRecord* data_of(const std::string& sequence) const;
   /// A rate of a cell; no value if it is undefined or the cell has no result.

@@ -9,16 +9,12 @@
 namespace raymoval {
 namespace {
 
-using Shares = std::map<std::string, double>;
-
-void add_share(const std::string& name, const Share& share, Shares& shares) {
-  if (const auto percent = share.percent()) shares[name] = *percent;
-}
-
-void add_shares(const RateGrid& grid, const Shares& shares, std::vector<TableCell>& cells) {
+/// @param columns `ColumnRecord` or `MethodColumns`, or null
+template <class Columns>
+void add_shares(const RateGrid& grid, const Columns* columns, std::vector<TableCell>& cells) {
   for (const std::string& name : grid.shares) {
-    const auto share = shares.find(name);
-    cells.push_back(share == shares.end() ? TableCell{"-"} : number_cell(share->second, 1));
+    const auto percent = columns == nullptr ? std::nullopt : columns->find(name).percent();
+    cells.push_back(number_or(percent, 1, "-"));
   }
 }
 
@@ -39,7 +35,7 @@ std::vector<TableCell> sequence_cells(const RateGrid& grid, const MethodRates& m
     cells.push_back(value ? rate_cell(options, rate, *value, method.printed_digits)
                           : TableCell{status.empty() || status == "ok" ? "n/a" : status});
   }
-  add_shares(grid, method.shares.empty() ? Shares() : method.shares[sequence], cells);
+  add_shares(grid, method.columns.empty() ? nullptr : method.columns[sequence], cells);
   if (grid.timed) cells.push_back(number_or(method.ms[sequence], 1, grid.no_time));
   return cells;
 }
@@ -250,25 +246,17 @@ MethodRates method_rates(const RunResults& results, const std::string& method,
     const bool timed = cell != nullptr && cell->ok() && cell->measured;
     row.by_sequence.push_back(score == nullptr ? nullptr : &score->rates);
     row.status.emplace_back(cell == nullptr ? "" : status_name(cell->status));
-    Shares& shares = row.shares.emplace_back();
-    if (cell != nullptr && cell->columns) {
-      for (const ColumnValue& value : cell->columns->values) {
-        add_share(value.name, value.share, shares);
-      }
-    }
+    row.columns.push_back(cell != nullptr && cell->columns ? &*cell->columns : nullptr);
     row.ms.push_back(timed ? std::optional(1000.0 * cell->measured->mean_seconds) : std::nullopt);
   }
   row.mean_ms = results.ms_per_scan(method);
-  for (const MethodColumns& columns : results.columns) {
-    if (columns.cell != method) continue;
-    for (const auto& [name, share] : columns.values) add_share(name, share, row.mean_shares);
-  }
+  row.all_columns = results.columns_of(method);
   return row;
 }
 
 std::vector<std::string> object_shares(const RunResults& results) {
   std::vector<std::string> names;
-  for (const char* name : {"parked", "trails"}) {
+  for (const char* name : {kParked, kTrails}) {
     const bool there = std::ranges::any_of(
         results.columns, [&](const MethodColumns& method) { return method.find(name).whole > 0; });
     if (there) names.emplace_back(name);
@@ -292,7 +280,7 @@ TextTable sequence_blocks(const RateGrid& grid, const TableOptions& options) {
 
 TableRow mean_row(const RateGrid& grid, const MethodRates& method, const TableOptions& options) {
   TableRow row{method.heading, mean_cells(grid, method, options)};
-  add_shares(grid, method.mean_shares, row.cells);
+  add_shares(grid, method.all_columns, row.cells);
   if (grid.timed) row.cells.push_back(number_or(method.mean_ms, 1, grid.no_time));
   return row;
 }

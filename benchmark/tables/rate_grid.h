@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,9 +19,8 @@ struct MethodRates {
   std::vector<std::string> status = {};                    ///< Shown where there are no rates.
   std::vector<std::optional<double>> ms = {};              ///< Per scan, by sequence.
   std::optional<double> mean_ms = std::nullopt;            ///< Over all scans.
-  /// Shares of `RateGrid::shares` in percent, by sequence and over all of them.
-  std::vector<std::map<std::string, double>> shares = {};
-  std::map<std::string, double> mean_shares = {};
+  std::vector<const ColumnRecord*> columns = {};           ///< By sequence; null: not known there.
+  const MethodColumns* all_columns = nullptr;              ///< Over all sequences.
   int printed_digits = 0;  ///< Decimals that were printed elsewhere; 0: rates of the run.
 
   /// The values of a rate on the sequences.

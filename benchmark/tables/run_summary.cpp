@@ -85,10 +85,8 @@ TextTable method_summary(const RunResults& results, const std::vector<std::strin
       row.cells.push_back(summary_cell(results, method, column));
     }
     for (const std::string& share : shares) {
-      const auto of_method = std::ranges::find(results.columns, method, &MethodColumns::cell);
-      const bool known = of_method != results.columns.end();
-      row.cells.push_back(
-          number_or(known ? of_method->find(share).percent() : std::nullopt, 1, "-"));
+      const MethodColumns* known = results.columns_of(method);
+      row.cells.push_back(number_or(known ? known->find(share).percent() : std::nullopt, 1, "-"));
     }
     for (TableCell& cell : cost_cells(results, method, "-")) row.cells.push_back(cell);
     table.rows.push_back(std::move(row));

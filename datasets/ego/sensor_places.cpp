@@ -2,6 +2,7 @@
 #include "datasets/ego/sensor_places.h"
 
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -84,6 +85,22 @@ std::vector<std::int64_t> sensor_numbers(const RecordSource& records, const Scan
     numbers[i] = std::llround(stored.value(scan.stored_position(i), *field));
   }
   return numbers;
+}
+
+std::vector<std::size_t> sensor_positions(const RecordSource& records, const Scan& scan,
+                                          const SensorPlaces& places) {
+  std::vector<std::size_t> positions;
+  for (const std::int64_t number : sensor_numbers(records, scan, places.field)) {
+    const auto found = places.by_number.find(number);
+    if (found == places.by_number.end()) {
+      const std::string text = std::to_string(number);
+      throw DataError("scan " + scan.name + ": has points of sensor " + text + " (field '" +
+                      places.field + "'), expected the numbers that --sensor-origin gives. Add /" +
+                      text + "=X,Y,Z to it.");
+    }
+    positions.push_back(static_cast<std::size_t>(std::distance(places.by_number.begin(), found)));
+  }
+  return positions;
 }
 
 }  // namespace raymoval

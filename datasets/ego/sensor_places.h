@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -38,5 +39,10 @@ const PointField* find_sensor_field(const RecordLayout& layout);
 /// @throws DataError if there is no such field
 std::vector<std::int64_t> sensor_numbers(const RecordSource& records, const Scan& scan,
                                          const std::string& field);
+
+/// The sensor of each point of `scan`, as its position among `places.by_number`.
+/// @throws DataError as `sensor_numbers`, and if `places` lacks a sensor
+std::vector<std::size_t> sensor_positions(const RecordSource& records, const Scan& scan,
+                                          const SensorPlaces& places);
 
 }  // namespace raymoval

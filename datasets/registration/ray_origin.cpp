@@ -108,18 +108,38 @@ double search_grid(const std::vector<Line>& lines, double span, int steps, doubl
   return best;
 }
 
-/// Two origins, and how well the lines fit the nearer of both.
+std::vector<Line> lines_of(const std::vector<Scan>& scans) {
+  std::vector<Line> lines;
+  for (const Scan& scan : scans) add_lines(scan, lines);
+  return lines;
+}
+
+RayOrigin best_origin(const std::vector<Line>& lines) {
+  RayOrigin found;
+  found.lines = lines.size();
+  if (lines.empty()) return found;
+  const std::vector<double> none(lines.size(), 1.0);
+  found.misfit_given = mean_misfit(lines, Vector3d::Zero(), kFits, none);
+  // A loose limit at first: half a metre beside the origin, hardly any line fits closely.
+  search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, none, found.origin);
+  search_grid(lines, 0.5, 3, 4.0 * kFits, none, found.origin);
+  for (const double span : {0.3, 0.2, 0.1, 0.05, 0.02}) {
+    found.misfit_found = search_grid(lines, span, 2, kFits, none, found.origin);
+  }
+  return found;
+}
+
+/// Two origins, and how well the lines fit the better of both.
 struct TwoOrigins {
   Vector3d first, second;
   double gain = 0.0;   ///< Of misfit, beside that of the best single origin.
-  double share = 0.0;  ///< Of the lines that clearly fit one of them those that fit the second.
+  double share = 0.0;  ///< Of the second origin, among the lines that clearly fit one origin.
 };
 
 TwoOrigins two_origins(const std::vector<Scan>& scans) {
   constexpr double kClearly = 0.2;
-  const RayOrigin single = find_ray_origin(scans);
-  std::vector<Line> lines;
-  for (const Scan& scan : scans) add_lines(scan, lines);
+  const std::vector<Line> lines = lines_of(scans);
+  const RayOrigin single = best_origin(lines);
   TwoOrigins two{single.origin, Vector3d::Zero()};
   if (lines.empty()) return two;
   // Loose at first, as for one origin.
@@ -149,20 +169,7 @@ TwoOrigins two_origins(const std::vector<Scan>& scans) {
 }  // namespace
 
 RayOrigin find_ray_origin(const std::vector<Scan>& scans) {
-  std::vector<Line> lines;
-  for (const Scan& scan : scans) add_lines(scan, lines);
-  RayOrigin found;
-  found.lines = lines.size();
-  if (lines.empty()) return found;
-  const std::vector<double> none(lines.size(), 1.0);
-  found.misfit_given = mean_misfit(lines, Vector3d::Zero(), kFits, none);
-  // A loose limit at first: half a metre beside the origin, hardly any line fits closely.
-  search_grid(lines, kFarthestOrigin, 6, 8.0 * kFits, none, found.origin);
-  search_grid(lines, 0.5, 3, 4.0 * kFits, none, found.origin);
-  for (const double span : {0.3, 0.2, 0.1, 0.05, 0.02}) {
-    found.misfit_found = search_grid(lines, span, 2, kFits, none, found.origin);
-  }
-  return found;
+  return best_origin(lines_of(scans));
 }
 
 std::optional<std::array<Vector3d, 2>> find_merged_origins(const std::vector<Scan>& scans) {

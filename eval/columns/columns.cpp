@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/columns/columns.h"
 
-#include <algorithm>
+#include <set>
+#include <utility>
 
 namespace raymoval {
 namespace {
@@ -111,22 +112,18 @@ std::vector<Column> make_general_columns() {
   return columns;
 }
 
-/// Whether a point of this class and instance moves in any scan.
-bool moves_at_times(const RemovalTally& tally, std::uint32_t word) {
-  const std::string moving_name = "moving-" + tally.label_rule.class_name(semantic_id(word));
-  return std::any_of(tally.objects.begin(), tally.objects.end(), [&](const auto& other) {
-    return instance_id(other.first) == instance_id(word) &&
-           tally.label_rule.class_name(semantic_id(other.first)) == moving_name;
-  });
-}
-
 /// The objects that are large enough: parked ones, or moving ones.
 std::vector<PointTally> objects_of(const RemovalTally& tally, bool moving) {
+  std::set<std::pair<std::uint16_t, std::string>> known;  // Instance and class.
+  for (const auto& [word, points] : tally.objects) {
+    known.emplace(instance_id(word), tally.label_rule.class_name(semantic_id(word)));
+  }
   std::vector<PointTally> objects;
   for (const auto& [word, points] : tally.objects) {
     if (points.points < kFewestObjectPoints) continue;
     if ((tally.label_rule.classify(word) == LabelClass::kMoving) != moving) continue;
-    if (moving || !moves_at_times(tally, word)) objects.push_back(points);
+    const std::string when_moving = "moving-" + tally.label_rule.class_name(semantic_id(word));
+    if (moving || known.count({instance_id(word), when_moving}) == 0) objects.push_back(points);
   }
   return objects;
 }
@@ -219,7 +216,7 @@ std::vector<Column> object_columns(const RemovalTally& tally) {
   if (!objects_of(tally, false).empty()) {
     const std::string reason = "there is no parked object";
     columns = {
-        {"parked", "Points of a parked object that are kept, mean over objects.", Better::kHigher,
+        {kParked, "Points of a parked object that are kept, mean over objects.", Better::kHigher,
          reason, [](const RemovalTally& all) { return mean_kept(objects_of(all, false)); }},
         {kWorstParked, "Points kept of the parked object that loses most.", Better::kHigher, reason,
          [](const RemovalTally& all) { return worst_kept(objects_of(all, false)); }},
@@ -232,7 +229,7 @@ std::vector<Column> object_columns(const RemovalTally& tally) {
          }}};
   }
   if (!objects_of(tally, true).empty()) {
-    columns.push_back({"trails", "Moving objects of which at least 95 % is removed.",
+    columns.push_back({kTrails, "Moving objects of which at least 95 % is removed.",
                        Better::kHigher, "there is no moving object", [](const RemovalTally& all) {
                          return whole_objects(objects_of(all, true), [](const PointTally& object) {
                            return object.removed;

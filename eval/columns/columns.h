@@ -65,6 +65,9 @@ std::vector<Column> class_columns(const RemovalTally& tally);
 inline constexpr std::int64_t kFewestObjectPoints = 200;
 /// Share of its points from which an object counts as kept, or as gone.
 inline constexpr double kWholeObject = 0.95;
+/// The columns that tables show beside rates.
+inline constexpr const char* kParked = "parked";
+inline constexpr const char* kTrails = "trails";
 /// The column of the object that loses most. Over several sequences it is the worst of all.
 inline constexpr const char* kWorstParked = "parked worst";
 

@@ -30,8 +30,8 @@ struct ScanFolderPlan {
 };
 
 /// Scans of a recording become .pcd files.
-/// @throws UsageError for a simulated sequence, for a format that can only be read, or for one that
-///   would lose data
+/// @throws UsageError for a simulated sequence, for a format that can only be read, or a
+///   format that would lose data
 ScanFolderPlan plan_scan_folder(const Sequence& sequence);
 
 /// The scans of a sequence without points that were removed or left out. Names, format (binary, not

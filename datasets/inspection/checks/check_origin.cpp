@@ -99,13 +99,6 @@ std::map<std::int64_t, std::vector<Scan>> clouds_of_sensors(const Samples& sampl
   return clouds;
 }
 
-/// What merged clouds whose points name their sensor show of the places of the sensors.
-struct SeenSensors {
-  bool are_merged = false;
-  bool are_known = true;  ///< The place of each sensor is known.
-  std::vector<Finding> findings = {};
-};
-
 SeenSensors look_at_sensors(const Samples& samples) {
   SensorPlaces places = samples.sequence().sensor_origin.value_or(SensorPlaces());
   const bool given = !places.field.empty();
@@ -137,11 +130,16 @@ SeenSensors look_at_sensors(const Samples& samples) {
   return seen;
 }
 
+const SeenSensors& seen_sensors(Samples& samples) {
+  if (!samples.seen_sensors) samples.seen_sensors = look_at_sensors(samples);
+  return *samples.seen_sensors;
+}
+
 std::vector<Finding> look_for_ray_origin(Samples& samples) {
   if (samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) return {};
   const std::vector<Scan> chosen = samples.some_scans(kScans);
   if (chosen.size() < kScans) return {};
-  if (const SeenSensors seen = look_at_sensors(samples); seen.are_merged) {
+  if (const SeenSensors& seen = seen_sensors(samples); seen.are_merged) {
     return seen.are_known ? seen.findings : std::vector<Finding>();
   }
   const registration::RayOrigin found = registration::find_ray_origin(chosen);
@@ -163,7 +161,7 @@ std::vector<Finding> look_for_ray_origin(Samples& samples) {
 std::vector<Finding> look_for_merged(Samples& samples) {
   constexpr std::size_t kMergedScans = 6;
   if (samples.point_scale() != 1.0 || !pose_verdict(samples).check.empty()) return {};
-  if (const SeenSensors seen = look_at_sensors(samples); seen.are_merged) {
+  if (const SeenSensors& seen = seen_sensors(samples); seen.are_merged) {
     return seen.are_known ? std::vector<Finding>() : seen.findings;
   }
   const std::vector<Scan> chosen = samples.some_scans(kMergedScans);

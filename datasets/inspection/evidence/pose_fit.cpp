@@ -225,11 +225,27 @@ double position_step(const std::vector<Pose>& poses) {
   return found;
 }
 
+registration::PoseFit fit_of_given(const Samples& samples) {
+  return registration::measure_pose_fit(*samples.sequence().scans, samples.threads(),
+                                        samples.cancel());
+}
+
+/// Keeps a fit for `measured_fit`.
+void keep_fit(const registration::PoseFit& fit, Samples& samples) {
+  samples.pose_fit = fit;
+  samples.measures.emplace_back("pose_fit_pairs", static_cast<double>(fit.pairs.size()));
+  if (fit.pairs.empty()) return;
+  samples.measures.emplace_back("pose_fit_m", fit.distance_m);
+  samples.measures.emplace_back("pose_fit_worst_m", worst_pair(fit).distance_m);
+  samples.measures.emplace_back("pose_fit_noise_m", fit.noise_m);
+}
+
 /// Whether enough surfaces lie within centimetres of each other under the given poses.
-bool fit_each_other(const Samples& samples) {
-  const registration::PoseFit fit = registration::measure_pose_fit(
-      *samples.sequence().scans, samples.threads(), samples.cancel());
-  return !fit.pairs.empty() && registration::fits(fit);
+bool fit_each_other(Samples& samples) {
+  const registration::PoseFit fit = fit_of_given(samples);
+  if (fit.pairs.empty() || !registration::fits(fit)) return false;
+  keep_fit(fit, samples);
+  return true;
 }
 
 PoseVerdict compare_hypotheses(Samples& samples) {
@@ -300,16 +316,9 @@ bool can_measure_fit(Samples& samples) {
 
 const registration::PoseFit& measured_fit(Samples& samples) {
   if (samples.pose_fit) return *samples.pose_fit;
-  samples.pose_fit.emplace();
-  if (!can_measure_fit(samples)) return *samples.pose_fit;
-  const registration::PoseFit fit = registration::measure_pose_fit(
-      *samples.sequence().scans, samples.threads(), samples.cancel());
-  samples.pose_fit = fit;
-  samples.measures.emplace_back("pose_fit_pairs", static_cast<double>(fit.pairs.size()));
-  if (fit.pairs.empty()) return *samples.pose_fit;
-  samples.measures.emplace_back("pose_fit_m", fit.distance_m);
-  samples.measures.emplace_back("pose_fit_worst_m", worst_pair(fit).distance_m);
-  samples.measures.emplace_back("pose_fit_noise_m", fit.noise_m);
+  if (!can_measure_fit(samples)) return samples.pose_fit.emplace();
+  // The verdict on the poses may have measured it.
+  if (!samples.pose_fit) keep_fit(fit_of_given(samples), samples);
   return *samples.pose_fit;
 }
 

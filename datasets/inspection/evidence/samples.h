@@ -22,6 +22,13 @@ struct ScanPair {
   std::size_t from = 0, to = 0;  ///< `from` < `to`, positions in the sequence.
 };
 
+/// The positions of the sensors of merged clouds whose points name their sensor.
+struct SeenSensors {
+  bool are_merged = false;
+  bool are_known = true;  ///< The position of each sensor is known.
+  std::vector<Finding> findings = {};
+};
+
 /// The change of the poses, or of the frame of the points, that makes the scans agree.
 struct PoseVerdict {
   std::string check;        ///< Name of the check that reports it; empty without a defect.
@@ -80,6 +87,8 @@ class Samples {
   std::optional<PoseVerdict> pose_verdict;
   /// Set by the first check that needs it.
   std::optional<registration::PoseFit> pose_fit;
+  /// Set by the first check that needs it.
+  std::optional<SeenSensors> seen_sensors;
   std::vector<std::pair<std::string, double>> measures;
 
  private:
