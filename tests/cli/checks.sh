@@ -61,6 +61,12 @@ for frame in range(first, last + 1, stride):
 PY
 }
 
+# sparse_vlp16: a sensor with every second column of a VLP-16: half of the points.
+sparse_vlp16() {
+  sed 's/"azimuth_step_deg": 0.2/"azimuth_step_deg": 0.4/' \
+    "$shipped_suites/../../datasets/simulation/sensors/vlp16.json"
+}
+
 # suite_anywhere NAME: prints the path of a copy of a shipped suite that a build without PCL takes, too.
 suite_anywhere() {
   sed 's/"octomap:ground", *//' "$shipped_suites/$1.json" >"$work/$1.json"

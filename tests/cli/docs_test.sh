@@ -102,10 +102,10 @@ done
 
 # --- running them ---
 export RAYMOVAL_CACHE=$work/cache
-small=(--quiet --sensor vlp16)
 mkdir -p ready/kitti/sequences ready/out
 cd ready || exit 1
-expect 0 "" simulate town -o data/05 --scans 12 "${small[@]}"
+sparse_vlp16 >sparse.json
+expect 0 "" simulate town -o data/05 --scans 12 --sensor sparse.json --quiet
 ln -s ../../data/05 kitti/sequences/05
 ln -s data/05/labels labels
 ln -s "$source_folder/examples" examples
@@ -164,6 +164,8 @@ for page in "${pages[@]}"; do
     [[ $line =~ $not_run ]] && continue
     line=${line//\/data\/kitti/kitti}
     line=${line//--scans 100/--scans 3 --sensor vlp16}
+    line=${line/#clean street/clean street --frames 0:9}
+    line=${line//--sequence street/--sequence street --frames 0:9}
     line=${line//town:scans=60/town:scans=3,sensor=vlp16}
     eval "words=($line)"
     ran=$((ran + 1))
