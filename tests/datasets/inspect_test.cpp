@@ -72,29 +72,13 @@ TEST_CASE("the scenes are silent", "[inspect][slow]") {
   }
 }
 
-namespace {
-
-EditedSequence every_fifth(const EditedSequence& all) {
-  EditedSequence some = all;
-  some.scans.clear();
-  some.words.clear();
-  for (std::size_t i = 0; i < all.size(); i += 5) {
-    some.scans.push_back(all.scans[i]);
-    some.scans.back().index = some.words.size();
-    some.words.push_back(all.words[i]);
-  }
-  return some;
-}
-
-}  // namespace
-
 TEST_CASE("key frames of a motorway at 2 Hz, 15 m apart, have no finding", "[inspect][slow]") {
   for (const char* sensor : {"vlp16", "hdl64e"}) {
     SimulationOptions options;
     options.scene = "motorway";
     options.scans = 80;
     options.sensor = sensor_with_step(sensor, "0.8");
-    const InspectionReport report = every_fifth(EditedSequence(options)).inspected();
+    const InspectionReport report = EditedSequence(options, 5).inspected();
     INFO(sensor << "\n" << text_of(report));
     CHECK(found(report).empty());
   }
@@ -117,7 +101,7 @@ TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
   options.scene = "motorway";
   options.scans = 41;
   options.sensor = "rosette";
-  const std::set<std::string> names = found(every_fifth(EditedSequence(options)).inspected());
+  const std::set<std::string> names = found(EditedSequence(options, 5).inspected());
   CHECK(names.count("poses-of-another-sequence") + names.count("poses-in-millimetres") == 0);
 }
 
