@@ -13,6 +13,7 @@
 #include "datasets/open_sequence.h"
 #include "datasets/world_axes/up_direction.h"
 #include "tests/benchmark/small_world.h"
+#include "tests/methods/moved_world.h"
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
@@ -65,7 +66,8 @@ std::vector<MethodRequest> all_methods() {
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     for (const MethodVariant& variant : entry->variants) {
       if (!variant.is_available) continue;
-      const auto method = MethodRegistry::built_in().configure(entry->name + ":" + variant.name);
+      auto method = MethodRegistry::built_in().configure(entry->name + ":" + variant.name);
+      toy::coarsen_octomap(method);
       requests.push_back({method.full_name(), method});
     }
   }
