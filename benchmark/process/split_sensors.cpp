@@ -220,6 +220,7 @@ class SplitSensors : public Remover {
 std::unique_ptr<Remover> with_split_sensors(std::unique_ptr<Remover> method,
                                             const Sequence& sequence) {
   if (!sequence.sensor_origin || sequence.sensor_origin->field.empty()) return method;
+  if (!sequence.topics.empty()) return method;  // Scans of several sensors are apart already.
   return std::make_unique<SplitSensors>(std::move(method), sequence);
 }
 

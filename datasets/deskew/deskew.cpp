@@ -279,9 +279,17 @@ Scan DeskewedSource::load(std::size_t index) const {
                   input_.records->place(index)};
   const std::vector<double> times = point_times(timed, clock_);
   MotionAround motion(*input_.motion, timed.stamp, clock_.longest_s, timed.place);
+  Pose T_moving_sensor = Pose::Identity();
+  if (input_.several_sensors) {
+    T_moving_sensor = input_.motion->at(timed.stamp)->inverse() * timed.scan.T_world_sensor;
+  }
   for (std::size_t i = 0; i < times.size(); ++i) {
     Eigen::Vector3f& point = timed.scan.points[i];
-    point = (motion.since(times[i]) * point.cast<double>()).cast<float>();
+    Eigen::Vector3d moved = point.cast<double>();
+    if (input_.several_sensors) moved = T_moving_sensor * moved;
+    moved = motion.since(times[i]) * moved;
+    if (input_.several_sensors) moved = T_moving_sensor.inverse() * moved;
+    point = moved.cast<float>();
   }
   return std::move(timed.scan);
 }

@@ -39,6 +39,8 @@ struct ScoredProtocol {
   ProtocolResult result;
   /// The result of the oracle's cloud. No value if label files were scored.
   std::optional<ProtocolResult> oracle = std::nullopt;
+  /// The result of all points, thinned as the cloud. No value if the cloud was not thinned.
+  std::optional<ProtocolResult> thinned = std::nullopt;
 };
 
 /// The content of `raymoval score`.
@@ -54,6 +56,7 @@ static void describe(RecordWriter& writer, const ScoredProtocol& scored) {
   describe(writer, scored.protocol);
   describe(writer, scored.result);
   if (scored.oracle) writer.json["oracle"] = to_json(*scored.oracle)["rates"];
+  if (scored.thinned) writer.json["thinned"] = to_json(*scored.thinned)["rates"];
 }
 
 static void describe(RecordWriter& writer, const CloudRecord& cloud) {
@@ -113,8 +116,9 @@ std::string cloud_text(const CloudRecord& cloud) {
   return text;
 }
 
-std::string oracle_text(const ProtocolResult& result) {
-  std::string text = "  the oracle's cloud, scored in the same way:";
+/// "  the oracle's cloud, scored in the same way: PR 99.422 RR 99.131".
+std::string rates_line(const std::string& cloud, const ProtocolResult& result) {
+  std::string text = "  " + cloud + ", scored in the same way:";
   for (const Rate& rate : result.rates) {
     text += " " + rate.name + " " + (rate.value ? rate_text(rate.name, *rate.value) : "n/a");
   }
@@ -143,8 +147,11 @@ std::string score_text(const ScoreRecord& record) {
   for (const ScoredProtocol& scored : record.protocols) {
     text += result_text(scored.protocol.name, scored.result);
     if (!scored.oracle) continue;
-    text += oracle_text(*scored.oracle) + above_oracle_text(scored.result, *scored.oracle);
+    text += rates_line("the oracle's cloud", *scored.oracle);
+    if (scored.thinned) text += rates_line("all points, only thinned", *scored.thinned);
+    text += above_oracle_text(scored.result, *scored.oracle);
   }
+  if (record.columns.values.empty()) return text;
   return text + columns_text(record.columns.values);
 }
 
@@ -223,16 +230,27 @@ void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m
                  Progress& progress, ScoreRecord& record) {
   const CleanedCloud cloud = read_cleaned_cloud(file, lattice_origin(*scored.sequence().scans));
   record.cloud = {cloud.stored, cloud.non_finite, voxel_m, cloud.warnings()};
-  std::vector<ProtocolResult> oracle;
+  std::vector<ProtocolResult> oracle, thinned;
   {
     const CleanedCloud best = oracle_cloud(scored.sequence(), voxel_m, &progress);
+    if (voxel_m == 0.0 && 2 * cloud.points.size() < best.points.size()) {
+      record.cloud->warnings.push_back("the cloud has less than half of the " +
+                                       grouped_text(best.points.size()) +
+                                       " static points. If it was thinned, give the voxel size "
+                                       "(--voxel), and the score says what that costs");
+    }
     oracle = score_cloud(scored, CloudEstimate(best.points));
+  }
+  if (voxel_m > 0.0) {
+    const CleanedCloud whole = whole_cloud(scored.sequence(), voxel_m, &progress);
+    thinned = score_cloud(scored, CloudEstimate(whole.points));
   }
   const CloudEstimate estimate(cloud.points);
   const std::vector<ProtocolResult> results = score_cloud(scored, estimate);
   for (const ProtocolRecord& protocol : protocol_records(scored)) {
     const std::size_t i = record.protocols.size();
     record.protocols.push_back({protocol, results[i], oracle[i]});
+    if (voxel_m > 0.0) record.protocols.back().thinned = thinned[i];
   }
   // A map does not record the sensor position of its points.
   const bool is_map = scored.sequence().layout == kMapLayout;
@@ -350,9 +368,10 @@ Command add_score_command(CommandParser& program) {
       ".npy masks (see the docs for learning ids); or the folder above sequences/NN/predictions");
   options.add("--cloud", "FILE", flags->cloud,
               "A cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
-  options.add("--voxel", "METRES", flags->voxel,
-              "The voxel size to which the cloud was thinned; the oracle's cloud is thinned in the "
-              "same way");
+  options.add(
+      "--voxel", "METRES", flags->voxel,
+      "The voxel size to which the cloud was thinned; the oracle's cloud is thinned in the "
+      "same way, and so is a cloud of all points, whose score is what thinning alone costs");
   options.add("--protocol", "NAME", flags->protocols, "The protocol to score by (default: erasor)");
   options.add("--set", "SETTING", flags->settings,
               "An option of a protocol: protocol:NAME.key=value");

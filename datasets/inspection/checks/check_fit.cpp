@@ -50,8 +50,11 @@ std::string frames_beside(const Samples& samples, const PairDistance& jump) {
 }
 
 std::string remedy_of(const Samples& samples, const PoseFit& fit) {
-  const std::string improve =
+  std::string improve =
       "Estimate the poses again with a SLAM program that closes loops (docs/poses.md names some).";
+  if (!samples.sequence().topics.empty()) {
+    improve += " If each topic alone fits, the place of one sensor beside the other is wrong.";
+  }
   if (fit.distance_m > registration::kMostDistance) return improve;
   const auto jump = find_jump(*samples.sequence().scans, fit);
   if (!jump) return improve;
