@@ -24,6 +24,7 @@ constexpr double kStrideShare = 0.4, kLeastStride = 0.5, kMostStride = 8.0;
 constexpr double kMostTurn = 45.0 * kDegree;  // between stations
 constexpr std::size_t kMostScans = 20;        // between stations
 constexpr std::size_t kFarStations = 4;       // A slow drift adds up over this many stations.
+constexpr std::size_t kSuccessivePairs = 10;
 /// A return to a place is within `kReturnStrides` strides of a station, after a path of at least
 /// `kPathStrides` strides.
 constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
@@ -130,11 +131,13 @@ Pairs choose_pairs(const std::vector<Pose>& poses, double stride) {
   const std::vector<std::size_t> stations = choose_stations(poses, lengths, stride);
   std::set<std::pair<std::size_t, std::size_t>> chosen;
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
-    chosen.emplace(stations[k], stations[k] + 1);
     chosen.emplace(stations[k], stations[k + 1]);
     if (k + kFarStations < stations.size()) {
       chosen.emplace(stations[k], stations[k + kFarStations]);
     }
+  }
+  for (const std::size_t k : evenly_spread(stations.size() - 1, kSuccessivePairs)) {
+    chosen.emplace(stations[k], stations[k] + 1);
   }
   Pairs pairs;
   for (const auto& [from, to] : chosen) pairs.push_back({from, to});

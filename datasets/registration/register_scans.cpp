@@ -16,6 +16,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kMostPoints = 1500;
+constexpr std::size_t kFewPoints = 300;  // They show whether a wide reach is worth its time.
 constexpr std::size_t kFewestMatches = 50;
 constexpr float kLikeNormal = 0.85F;  // cosine
 constexpr double kOnSurface = 0.1;    // metres
@@ -121,21 +122,32 @@ Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, P
   return motion;
 }
 
-std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all) {
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all, std::size_t most) {
   std::vector<SurfacePoint> some;
-  for (const std::size_t i : evenly_spread(all.size(), kMostPoints)) some.push_back(all[i]);
+  for (const std::size_t i : evenly_spread(all.size(), most)) some.push_back(all[i]);
   return some;
+}
+
+/// Whether registration of a few points with a wide reach finds more overlap than `reached` has.
+bool may_be_far(const SurfaceCloud& from, const std::vector<SurfacePoint>& points,
+                const Pose& guess, const Pose& reached) {
+  const std::vector<SurfacePoint> few = thinned(points, kFewPoints);
+  const auto overlap = [&](const Pose& motion) {
+    return overlap_of(find_matches(from, few, motion, kLeastReach), few.size());
+  };
+  return overlap(refine(from, few, guess, kWideReach)) > overlap(reached) + kBetter / 3.0;
 }
 
 }  // namespace
 
 Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess) {
-  const std::vector<SurfacePoint> points = thinned(to.points());
+  const std::vector<SurfacePoint> points = thinned(to.points(), kMostPoints);
   Registration best{.T_from_to = guess};
   Matches matches = find_matches(from, points, guess, kLeastReach);
   best.overlap = best.overlap_of_guess = overlap_of(matches, points.size());
   double gain = 0.0;
   for (const double reach : {kLeastReach, kWideReach}) {
+    if (reach == kWideReach && !may_be_far(from, points, guess, best.T_from_to)) break;
     const Pose motion = refine(from, points, guess, reach);
     Matches found = find_matches(from, points, motion, kLeastReach);
     const double overlap = overlap_of(found, points.size());

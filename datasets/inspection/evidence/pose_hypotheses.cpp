@@ -66,8 +66,7 @@ Pose camera_of(const Samples& samples) {
   }
 }
 
-/// Whether the poses are written with quaternions; true if unknown.
-bool have_quaternions(const Samples& samples) {
+bool read_quaternions(const Samples& samples) {
   if (samples.files().empty() || samples.has_viewpoints()) return true;
   const auto folder = samples.files().front().path.parent_path();
   for (const auto& place : {folder, folder.parent_path()}) {
@@ -75,6 +74,12 @@ bool have_quaternions(const Samples& samples) {
     if (is_file(path)) return read_pose_file(path).has_quaternions;
   }
   return true;
+}
+
+/// Whether the poses are written with quaternions; true if unknown.
+bool have_quaternions(Samples& samples) {
+  if (!samples.quaternions) samples.quaternions = read_quaternions(samples);
+  return *samples.quaternions;
 }
 
 /// Points in camera axes with poses of the LiDAR move like LiDAR points with poses of a camera, and
@@ -103,7 +108,7 @@ void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& a
 
 }  // namespace
 
-std::vector<MisreadPoses> misread_poses(const Samples& samples) {
+std::vector<MisreadPoses> misread_poses(Samples& samples) {
   std::vector<MisreadPoses> all = {{"poses-inverted", "under the inverse of each pose",
                                     [](const Pose& pose) { return Pose(pose.inverse()); },
                                     "--pose-format inverse"}};
@@ -121,7 +126,7 @@ std::vector<MisreadPoses> misread_poses(const Samples& samples) {
   return all;
 }
 
-std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
+std::vector<PoseHypothesis> pose_hypotheses(Samples& samples) {
   const auto& poses = samples.poses();
   const std::size_t last = poses.size() - 1;
   std::vector<PoseHypothesis> all;
