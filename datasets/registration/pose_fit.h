@@ -13,6 +13,7 @@ namespace raymoval::registration {
 struct PairDistance {
   std::size_t from = 0, to = 0;  ///< Positions of the scans, `from` < `to`.
   double distance_m = 0.0;       ///< RMS along the normals, without the sensor's noise.
+  bool is_return = false;        ///< The path returned to the place of `from`.
 };
 
 /// How well poses fit the scans.
