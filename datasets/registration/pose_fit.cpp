@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "core/angle.h"
@@ -24,7 +25,7 @@ constexpr double kStrideShare = 0.4, kLeastStride = 0.5, kMostStride = 8.0;
 constexpr double kMostTurn = 45.0 * kDegree;  // between stations
 constexpr std::size_t kMostScans = 20;        // between stations
 constexpr std::size_t kFarStations = 4;       // A slow drift adds up over this many stations.
-constexpr std::size_t kSuccessivePairs = 10;
+constexpr std::size_t kPairsBetween = 10;
 /// A return to a place is within `kReturnStrides` strides of a station, after a path of at least
 /// `kPathStrides` strides.
 constexpr double kReturnStrides = 1.5, kPathStrides = 6.0;
@@ -131,6 +132,23 @@ void add_returns(const std::vector<Pose>& poses, const std::vector<double>& leng
   }
 }
 
+/// Stations with the scan in the middle before the next station, where most scans lie between. If
+/// the poses stand still while the sensor moves, no station lies between.
+std::set<std::pair<std::size_t, std::size_t>> pairs_between(
+    const std::vector<std::size_t>& stations) {
+  std::vector<std::size_t> order(stations.size() - 1);
+  std::iota(order.begin(), order.end(), 0);
+  const auto length = [&](std::size_t k) { return stations[k + 1] - stations[k]; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k : order) {
+    if (pairs.size() == kPairsBetween || length(k) < 2) break;
+    pairs.emplace(stations[k], stations[k] + length(k) / 2);
+  }
+  return pairs;
+}
+
 Pairs choose_pairs(const std::vector<Pose>& poses, double stride) {
   const std::vector<double> lengths = path_lengths(poses);
   const std::vector<std::size_t> stations = choose_stations(poses, lengths, stride);
@@ -141,9 +159,7 @@ Pairs choose_pairs(const std::vector<Pose>& poses, double stride) {
       chosen.emplace(stations[k], stations[k + kFarStations]);
     }
   }
-  for (const std::size_t k : evenly_spread(stations.size() - 1, kSuccessivePairs)) {
-    chosen.emplace(stations[k], stations[k] + 1);
-  }
+  for (const auto& pair : pairs_between(stations)) chosen.insert(pair);
   Pairs pairs;
   for (const auto& [from, to] : chosen) pairs.push_back({from, to});
   add_returns(poses, lengths, stations, stride, pairs);
