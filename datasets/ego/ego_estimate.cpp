@@ -86,21 +86,22 @@ std::vector<Surfel> largest_plane(const std::vector<Surfel>& candidates) {
   return best;
 }
 
-/// The plane of most surfels of all scans, below the sensor along its z axis, or along the world's
-/// z axis for a sensor that is tilted far, such as on its side: there a wall beside the path may
-/// have more surfels.
-GroundPlane ground_of(const std::vector<const Scan*>& scans, const SurfelsOf& surfels) {
-  std::vector<Vector3d> up;  // The world's z axis in the frame of each scan.
+/// The plane of most surfels of all scans, below the sensor along its z axis; or along `world_up`
+/// for a sensor that is tilted far, such as on its side: there a wall beside the path may have more
+/// surfels.
+GroundPlane ground_of(const std::vector<const Scan*>& scans, const SurfelsOf& surfels,
+                      const Vector3d& world_up) {
+  std::vector<Vector3d> up;  // In the frame of each scan.
   Vector3d mean = Vector3d::Zero();
   for (const Scan* scan : scans) {
-    up.emplace_back(scan->T_world_sensor.linear().row(2));
+    up.emplace_back(scan->T_world_sensor.linear().transpose() * world_up);
     mean += up.back() / static_cast<double>(scans.size());
   }
   std::vector<Surfel> best = largest_plane(
       ground_candidates(std::vector<Vector3d>(scans.size(), Vector3d::UnitZ()), surfels));
   if (mean.z() < kUpright) {
     std::vector<Surfel> other = largest_plane(ground_candidates(up, surfels));
-    if (2 * other.size() > best.size()) best = std::move(other);
+    if (!other.empty()) best = std::move(other);
   }
   GroundPlane plane;
   if (best.empty()) return plane;
@@ -232,11 +233,12 @@ std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
   return chosen;
 }
 
-EgoEstimate estimate_ego(const std::vector<const Scan*>& scans, const SurfelsOf& surfels) {
+EgoEstimate estimate_ego(const std::vector<const Scan*>& scans, const SurfelsOf& surfels,
+                         const Vector3d& world_up) {
   EgoEstimate estimate;
   estimate.scans = scans.size();
   if (!estimate.has_enough_motion()) return estimate;
-  VoxelSet steady = steady_cells(scans, ground_of(scans, surfels));
+  VoxelSet steady = steady_cells(scans, ground_of(scans, surfels, world_up));
   erase_filled(scans, steady);
   estimate.steady = steady.size();
   estimate.own = grown_from_sensor(steady);

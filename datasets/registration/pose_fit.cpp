@@ -219,12 +219,12 @@ namespace {
 
 /// Whether a registration is conclusive: scans overlap enough, and if surfaces are moved far, they
 /// fit clearly better, and points are not moved along surfaces much farther, as if these constrain
-/// the motion too little (a narrow view of a wall). On a return, when vehicles are elsewhere, it is
-/// enough if the few surfaces across the shift fit.
-bool is_clear(const Registration& found, bool is_return) {
+/// the motion too little (a narrow view of a wall). It is enough if the few
+/// surfaces across the shift fit, such as poles and signs along a road.
+bool is_clear(const Registration& found) {
   if (found.matched < kLeastMatched || found.overlap < kLeastOverlap) return false;
   if (found.shift <= kMostDistance) return true;
-  if (is_return && found.overlap_across >= kLeastOverlap &&
+  if (found.overlap_across >= kLeastOverlap &&
       found.overlap_across >= kFarGain * found.overlap_across_of_guess) {
     return true;
   }
@@ -249,7 +249,7 @@ double measure_pair(const ScanSource& scans, std::size_t from, std::size_t to) {
   const SurfaceCloud first(scans.load(from)), second(scans.load(to));
   const Registration found =
       register_scans(first, second, scans.pose(from).inverse() * scans.pose(to));
-  return is_clear(found, true) ? found.shift : 0.0;
+  return is_clear(found) ? found.shift : 0.0;
 }
 
 PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic<bool>* cancel) {
@@ -274,7 +274,7 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
                                 pair.is_return ? shifted_in_plan(from, to) : std::vector<Pose>());
     });
     for (std::size_t i = 0; i < count; ++i) {
-      if (!is_clear(found[i], pairs[begin + i].is_return)) continue;
+      if (!is_clear(found[i])) continue;
       distances.push_back(found[i].shift);
       noises.push_back(found[i].noise);
       fit.pairs.push_back(pairs[begin + i]);

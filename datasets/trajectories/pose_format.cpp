@@ -157,17 +157,22 @@ Eigen::Matrix3d euler_rotation(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
-/// Whether a number of the pose is not finite.
+/// Whether a number of the pose is not finite, or the rotation is all zeros, which some programs
+/// write where they have lost track.
 bool lacks_pose(const std::vector<double>& numbers, const PoseColumns& columns) {
   const auto bad = [&](std::size_t at) { return !std::isfinite(numbers[at]); };
   const bool whole =
       columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4;
+  const auto zero = [&](std::size_t at) { return numbers[at] == 0.0; };
   if (!whole) {
-    return std::any_of(columns.position.begin(), columns.position.end(), bad) ||
+    const bool lost = columns.rotation == Rotation::kQuaternion &&
+                      std::all_of(columns.turn.begin(), columns.turn.end(), zero);
+    return lost || std::any_of(columns.position.begin(), columns.position.end(), bad) ||
            std::any_of(columns.turn.begin(), columns.turn.end(), bad);
   }
   const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(columns.matrix);
-  return !std::all_of(begin, begin + 12, [](double number) { return std::isfinite(number); });
+  return !std::all_of(begin, begin + 12, [](double number) { return std::isfinite(number); }) ||
+         std::all_of(begin, begin + 12, [](double number) { return number == 0.0; });
 }
 
 Eigen::Matrix3d vector_rotation(const Eigen::Vector3d& vector) {

@@ -88,8 +88,8 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
       result.poses.back() = sensor_pose(rigid_pose(file, row), settings);
     }
   }
-  report_missing(file, "their rows hold nan", "Take a trajectory with a pose for each scan.",
-                 result);
+  report_missing(file, "their rows hold nan or zeros",
+                 "Take a trajectory with a pose for each scan.", result);
   result.stamps = assumed_stamps(scans, &file);
   if (file.stamped() && scans.stamps.empty()) {
     const Nanoseconds first = *file.rows.front().stamp;

@@ -361,6 +361,47 @@ StampColumn parse_stamps(const std::vector<std::string_view>& words, std::option
   return column;
 }
 
+namespace {
+
+/// The date in a name: "2023-05-01-12-30-00-123456", with any marks or none between year, month,
+/// day, hour, minute and second; or "20230501_123000_123". A number follows that is no time of day
+/// without a third part, such as a frame.
+std::optional<Nanoseconds> date_in_name(std::string_view stem) {
+  std::vector<std::string_view> runs;
+  for (std::size_t at = 0; at < stem.size();) {
+    const std::string_view run = digits_at(stem, at);
+    if (!run.empty()) runs.push_back(run);
+    at += std::max<std::size_t>(run.size(), 1);
+  }
+  std::string date;
+  std::size_t used = 0;
+  while (used < runs.size() && date.size() < 14) date += runs[used++];
+  const bool split = used == 6 && runs[0].size() == 4;
+  const bool packed = used == 2 && runs[0].size() == 8 && runs.size() > used;
+  if (date.size() != 14 || !(split || packed)) return std::nullopt;
+  for (const std::size_t at : {4, 7}) date.insert(at, "-");
+  date.insert(10, "T");
+  for (const std::size_t at : {13, 16}) date.insert(at, ":");
+  if (used < runs.size()) date.append(".").append(runs[used]);
+  return parse_date(date);
+}
+
+std::optional<NameStamps> dates_in_names(const std::vector<std::string>& stems) {
+  NameStamps found;
+  for (const std::string& stem : stems) {
+    const auto date = date_in_name(stem);
+    if (!date) return std::nullopt;
+    found.stamps.push_back(*date);
+  }
+  std::vector<Nanoseconds> sorted = found.stamps;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
+  found.since_1970 = true;
+  return found;
+}
+
+}  // namespace
+
 std::optional<NameStamps> stamps_in_names(
     const std::vector<std::string>& stems,
     const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span) {
@@ -368,7 +409,7 @@ std::optional<NameStamps> stamps_in_names(
   for (const std::string& stem : stems) {
     const auto time = time_in_name(stem);
     const bool same = time && (times.empty() || time->since_1970 == times.front().since_1970);
-    if (!same) return std::nullopt;
+    if (!same) return dates_in_names(stems);
     times.push_back(*time);
   }
   if (times.empty()) return std::nullopt;

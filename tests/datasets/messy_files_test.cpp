@@ -98,6 +98,9 @@ TEST_CASE("times of poses are dates, repeated, unsorted, nan, and followed by co
   check_says(notes[0], {"1 of 5 rows hold nan"});
   check_says(notes[1], {"1 of 5 rows have the time of the row before", "averaged"});
   CHECK(read("nan nan nan nan nan nan nan nan\n1 2 0 0 0 0 0 1\n").rows.size() == 1);
+  // Zeros where a program lost track.
+  CHECK_FALSE(read(tum_row("1", 1) + "2 5 0 0 0 0 0 0\n").rows.at(1).has_pose());
+  CHECK_FALSE(read("1 0 0 0 0 1 0 0 0 0 1 0\n0 0 0 0 0 0 0 0 0 0 0 0\n").rows.at(1).has_pose());
 }
 
 TEST_CASE("a row of nan leaves its scan without a pose where poses go by row", "[trajectories]") {

@@ -83,6 +83,13 @@ TEST_CASE("names are times only if all of them look like times", "[trajectories]
   }
   CHECK_FALSE(stamps_in_names({"1317384506.400000000", "000001"}));
   CHECK_FALSE(stamps_in_names({}));
+  // Dates; a date and the number of a frame are none.
+  for (const auto& names :
+       {std::vector<std::string>{"2014-11-11-17-22-35-5", "2014-11-11-17-22-36-0"},
+        {"scan_20141111_172235_5", "scan_20141111_172236_0"}}) {
+    CHECK(stamps_in_names(names).value().stamps.at(0) == 1415726555'500000000);
+  }
+  CHECK_FALSE(stamps_in_names({"20141111_000001", "20141111_000002"}));
   // The ninth and the tenth of a second are not one time.
   CHECK_FALSE(stamps_in_names({"1.1", "1.2", "1.9", "1.10"}));
   // The serial number of a sensor and a count of microseconds: no sensor is that fast.
