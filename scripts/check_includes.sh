@@ -13,7 +13,7 @@
 rooms="core datasets|methods|eval benchmark python"
 folders="
 core                   . files process scan simd
-datasets               records clouds|fields|geometry registration trajectories bags ego|world_axes|deskew
+datasets               records clouds|fields|geometry registration trajectories bags world_axes|deskew ego
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans|truth_map helimos
 datasets               simulation layouts open_sequence inspection

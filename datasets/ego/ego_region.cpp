@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "datasets/clouds/returns.h"
 #include "datasets/ego/ego_estimate.h"
+#include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
 namespace {
@@ -99,8 +100,9 @@ EgoRegion estimated_region(const ScanSource& source) {
     chosen.push_back(&scan);
     surfels.push_back(find_surfels(without_near(scan.points)));
   }
-  const EgoEstimate estimate =
-      estimate_ego(chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; });
+  const EgoEstimate estimate = estimate_ego(
+      chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; },
+      UpChoice(std::nullopt).get(source).direction);
   if (!estimate.has_enough_motion()) {
     throw DataError(
         "--drop-ego auto: only " + counted_text(estimate.scans, "scan") +

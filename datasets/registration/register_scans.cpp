@@ -4,7 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/sampling.h"
 
@@ -16,14 +18,18 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kMostPoints = 1500;
+constexpr std::size_t kFewPoints = 300;  // They show whether a wide reach is worth its time.
 constexpr std::size_t kFewestMatches = 50;
 constexpr float kLikeNormal = 0.85F;  // cosine
 constexpr double kOnSurface = 0.1;    // metres
 constexpr double kLeastReach = 0.6;   // metres from a point to its counterpart
 constexpr double kWideReach = 3.0;    // the same for guesses with a large error
+constexpr double kOtherReach = 1.5;   // the same for other guesses
 constexpr double kLeastCut = 0.05;    // metres at which Tukey's weight ends
 constexpr double kDetermined = 0.01;  // Least share of the weights that determines a direction.
-constexpr double kBetter = 0.03;      // Least gain in overlap of a motion far from the guess.
+constexpr double kOnePlace = 0.5;     // metres
+constexpr double kAcross = 0.3;       // Least sine of the angle between a way and a surface across.
+constexpr double kClearlyBetter = 0.2;  // Least gain in overlap across the way from the guess.
 constexpr int kSteps = 15;
 
 /// A point of `to` in the frame of `from`, and its surface.
@@ -121,31 +127,104 @@ Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, P
   return motion;
 }
 
-std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all) {
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all, std::size_t most) {
   std::vector<SurfacePoint> some;
-  for (const std::size_t i : evenly_spread(all.size(), kMostPoints)) some.push_back(all[i]);
+  for (const std::size_t i : evenly_spread(all.size(), most)) some.push_back(all[i]);
   return some;
+}
+
+/// As many points with normals along each axis: ground far away and in rings would outweigh the few
+/// points that determine a motion along it (sampling of normals, Rusinkiewicz and Levoy 2001).
+std::vector<SurfacePoint> balanced(const std::vector<SurfacePoint>& all) {
+  std::array<std::vector<SurfacePoint>, 3> groups;
+  for (const SurfacePoint& point : all) {
+    Eigen::Index axis = 0;
+    point.normal.cwiseAbs().maxCoeff(&axis);
+    groups[static_cast<std::size_t>(axis)].push_back(point);
+  }
+  std::vector<SurfacePoint> some;
+  for (const auto& group : groups) {
+    const auto chosen = thinned(group, kFewPoints / groups.size());
+    some.insert(some.end(), chosen.begin(), chosen.end());
+  }
+  return some;
+}
+
+/// Overlaps before and after a change of the motion, of the points on surfaces across the change; 0
+/// if there are few.
+std::array<double, 2> overlaps_across(const SurfaceCloud& from,
+                                      const std::vector<SurfacePoint>& points, const Pose& before,
+                                      const Pose& after) {
+  std::vector<SurfacePoint> across;
+  for (const SurfacePoint& point : points) {
+    const Vector3d at = point.position.cast<double>();
+    const Vector3d moved = after * at - before * at;
+    const double along_normal = (after.linear() * point.normal.cast<double>()).dot(moved);
+    if (std::abs(along_normal) >= kAcross * moved.norm()) across.push_back(point);
+  }
+  across = thinned(across, kFewPoints);
+  if (across.size() < kFewestMatches) return {0.0, 0.0};
+  const auto overlap = [&](const Pose& motion) {
+    return overlap_of(find_matches(from, across, motion, kLeastReach), across.size());
+  };
+  return {overlap(before), overlap(after)};
+}
+
+/// A guess, and the distance to counterparts that is searched from it.
+struct Start {
+  Pose guess;
+  double reach;
+};
+
+/// The motion with the largest overlap that registration of a few points reaches from `starts`, if
+/// it is clearly better than `reached` on the surfaces across the way between the two.
+std::optional<Pose> far_motion(const SurfaceCloud& from, const SurfaceCloud& to,
+                               const std::vector<SurfacePoint>& points,
+                               const std::vector<Start>& starts, const Pose& reached) {
+  const std::vector<SurfacePoint> few = balanced(points);
+  const auto overlap = [&](const Pose& motion) {
+    return overlap_of(find_matches(from, few, motion, kLeastReach), few.size());
+  };
+  std::optional<Pose> best;
+  double most = overlap(reached);
+  for (const Start& start : starts) {
+    const Pose motion = refine(from, few, start.guess, start.reach);
+    // From one place, rings on the ground and vehicles that move along look alike at any time.
+    if (motion.translation().norm() < kOnePlace) continue;
+    const double found = overlap(motion);
+    if (found <= most) continue;
+    most = found;
+    best = motion;
+  }
+  if (!best) return best;
+  // Far from the guess, another surface may fit a little by chance.
+  const auto [before, after] = overlaps_across(from, to.points(), reached, *best);
+  return after > before + kClearlyBetter ? best : std::nullopt;
 }
 
 }  // namespace
 
-Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess) {
-  const std::vector<SurfacePoint> points = thinned(to.points());
+Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess,
+                            const std::vector<Pose>& others) {
+  const std::vector<SurfacePoint> points = thinned(to.points(), kMostPoints);
   Registration best{.T_from_to = guess};
   Matches matches = find_matches(from, points, guess, kLeastReach);
   best.overlap = best.overlap_of_guess = overlap_of(matches, points.size());
-  double gain = 0.0;
-  for (const double reach : {kLeastReach, kWideReach}) {
-    const Pose motion = refine(from, points, guess, reach);
+  const auto improve = [&](const Pose& motion, bool is_far) {
     Matches found = find_matches(from, points, motion, kLeastReach);
     const double overlap = overlap_of(found, points.size());
-    if (overlap > best.overlap + gain) {
-      best.T_from_to = motion;
-      best.overlap = overlap;
-      matches = std::move(found);
-    }
-    gain = kBetter;  // With a wide reach, another surface may fit a little by chance.
-  }
+    if (!is_far && overlap <= best.overlap) return;
+    best.T_from_to = motion;
+    best.overlap = overlap;
+    matches = std::move(found);
+  };
+  improve(refine(from, points, guess, kLeastReach), false);
+  std::vector<Start> starts = {{guess, kWideReach}};
+  for (const Pose& other : others) starts.push_back({other, kOtherReach});
+  if (const auto far = far_motion(from, to, points, starts, best.T_from_to)) improve(*far, true);
+  const auto across = overlaps_across(from, to.points(), guess, best.T_from_to);
+  best.overlap_across_of_guess = across[0];
+  best.overlap_across = across[1];
   best.matched = matches.size();
   best.noise = robust_deviation(matches);
   const Pose back = guess * best.T_from_to.inverse();

@@ -217,7 +217,7 @@ std::vector<StampedPose> stamped_poses(const PoseFile& file, std::vector<std::st
     notes.push_back(file.path.string() + ": " + grouped_text(count) + " of " +
                     counted_text(file.rows.size(), "row") + what);
   };
-  note(none, " hold nan or a quaternion of 0 in place of a pose and are not used.");
+  note(none, " hold nan or zeros in place of a pose and are not used.");
   note(equal, " have the time of the row before; the poses of one time are averaged.");
   return poses;
 }

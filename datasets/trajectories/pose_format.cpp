@@ -157,11 +157,17 @@ Eigen::Matrix3d euler_rotation(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
-/// Whether the row has the quaternion 0, as motion capture writes it when it loses its target.
+/// Whether the row has the quaternion 0 or a matrix of zeros, as motion capture writes it when it
+/// loses its target.
 bool is_lost(const std::vector<double>& numbers, const PoseColumns& columns) {
+  const auto zero = [](double number) { return number == 0.0; };
+  if (columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4) {
+    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(columns.matrix);
+    return std::all_of(begin, begin + 12, zero);
+  }
   return columns.rotation == Rotation::kQuaternion &&
          std::all_of(columns.turn.begin(), columns.turn.end(),
-                     [&](std::size_t at) { return numbers[at] == 0.0; });
+                     [&](std::size_t at) { return zero(numbers[at]); });
 }
 
 /// Whether a number of the pose is not finite.

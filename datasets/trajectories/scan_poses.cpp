@@ -88,7 +88,7 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
       result.poses.back() = sensor_pose(rigid_pose(file, row), settings);
     }
   }
-  report_missing(file, "their rows hold nan or a quaternion of 0",
+  report_missing(file, "their rows hold nan or zeros",
                  "Take a trajectory with a pose for each scan.", result);
   result.stamps = assumed_stamps(scans, &file);
   if (file.stamped() && scans.stamps.empty()) {

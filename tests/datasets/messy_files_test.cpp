@@ -102,6 +102,7 @@ TEST_CASE("times of poses are dates, repeated, unsorted, nan, and followed by co
       stamped_poses(read(tum_row("1", 1) + "2 0 0 0 0 0 0 0\n" + tum_row("3", 3)), notes).size() ==
       2);
   CHECK(read("nan nan nan nan nan nan nan nan\n1 2 0 0 0 0 0 1\n").rows.size() == 1);
+  CHECK_FALSE(read("1 0 0 0 0 1 0 0 0 0 1 0\n0 0 0 0 0 0 0 0 0 0 0 0\n").rows.at(1).has_pose());
 }
 
 TEST_CASE("a row of nan leaves its scan without a pose where poses go by row", "[trajectories]") {

@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/pair_fit.h"
 #include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/inspection/evidence/pose_hypotheses.h"
 #include "datasets/inspection/evidence/time_offset.h"
@@ -84,9 +85,13 @@ class ReposedScans : public ScanSource {
 };
 
 /// Tries the hypotheses on poses again: similar scans along a street agree under wrong poses, too,
-/// but do not fit to the centimetre.
-std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
+/// but do not fit to the centimetre. Hypotheses under which scans agree less are left out.
+std::optional<Finding> explained(Samples& samples, const PoseFit& given) {
+  PairFit agreement(samples);
+  agreement.find_best({});
+  const double least = agreement.share([&](std::size_t i) { return samples.poses()[i]; });
   for (const PoseHypothesis& hypothesis : pose_hypotheses(samples)) {
+    if (agreement.share(hypothesis.pose) < least) continue;
     const ReposedScans scans(*samples.sequence().scans, hypothesis);
     const PoseFit fit = registration::measure_pose_fit(scans, samples.threads(), samples.cancel());
     if (!fits(fit) || fit.distance_m > kExplained * given.distance_m ||

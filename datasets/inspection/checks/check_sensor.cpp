@@ -169,8 +169,8 @@ std::vector<Finding> look_for_ego(Samples& samples) {
   std::vector<const Scan*> scans;
   for (const std::size_t index : apart) scans.push_back(&samples.scans().at(index));
   const EgoEstimate estimate = estimate_ego(
-      scans,
-      [&](std::size_t k) -> const std::vector<Surfel>& { return samples.surfels(apart[k]); });
+      scans, [&](std::size_t k) -> const std::vector<Surfel>& { return samples.surfels(apart[k]); },
+      samples.sequence().up().direction);
   if (!estimate.has_enough_motion()) return {};
   samples.measures.emplace_back("steady_cells", static_cast<double>(estimate.steady));
   samples.measures.emplace_back("steady_cells_at_sensor", static_cast<double>(estimate.own.size()));
