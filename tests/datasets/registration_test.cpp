@@ -140,7 +140,7 @@ TEST_CASE("poses that are wrong between two stations do not fit", "[registration
   const auto between = [](std::size_t i) -> Eigen::Vector3d {
     return {0.0, i > 1 && i < 7 ? 0.5 : 0.0, 0.0};
   };
-  CHECK(worst(measure_pose_fit(WrongPoses(between), 2)) > kMostDistanceOfPair);
+  CHECK(worst_pair(measure_pose_fit(WrongPoses(between), 2)).distance_m > kMostDistanceOfPair);
 }
 
 TEST_CASE("less than two scans, and scans without points, fit without a pair", "[registration]") {
