@@ -62,7 +62,7 @@ std::string conversion_text(const std::filesystem::path& path) {
            ending + " -SAVE_CLOUDS.";
   };
   static const std::string kTable =
-      "clouds as text are not read. NumPy converts them: numpy.save(\"out.npy\", "
+      "clouds as text are not read or written. NumPy converts them: numpy.save(\"out.npy\", "
       "numpy.loadtxt(\"in.txt\", \"f4\")), with delimiter=\",\" for commas and skiprows=1 for a "
       "line of names.";
   static const std::map<std::string, std::string> texts = {

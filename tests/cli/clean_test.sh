@@ -111,7 +111,7 @@ expect 2 "was not written by" clean drive "${online[@]}" --scans drive --overwri
 ln drive/poses.txt all/poses.pcd
 expect 2 "is read as an input" clean drive "${online[@]}" -o all/poses.pcd --overwrite
 expect 2 "not stored in files" clean street "${online[@]}" --scans map_scans
-expect 2 "not a known cloud format" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
+expect 2 "not read or written" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
 nothing_left "a refusal of outputs"
 
 # Tiles hold together what the map holds.
