@@ -63,8 +63,8 @@ std::vector<double> parse_numbers(std::string_view text, const std::filesystem::
 
 Pose rigid_pose(const Eigen::Matrix<double, 3, 4>& matrix, const std::string& where) {
   if (!matrix.allFinite()) {
-    throw DataError(where + ": the pose holds a number that is not finite (nan or inf), or only " +
-                    "zeros as rotation. Take a trajectory that has a pose there.");
+    throw DataError(where + ": the pose holds a number that is not finite (nan or inf). " +
+                    "Take a trajectory that has a pose there.");
   }
   Eigen::Matrix3d rotation = matrix.leftCols<3>();
   const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm();

@@ -283,13 +283,11 @@ Scan DeskewedSource::load(std::size_t index) const {
   if (input_.several_sensors) {
     T_moving_sensor = input_.motion->at(timed.stamp)->inverse() * timed.scan.T_world_sensor;
   }
+  const Pose T_sensor_moving = T_moving_sensor.inverse();
   for (std::size_t i = 0; i < times.size(); ++i) {
     Eigen::Vector3f& point = timed.scan.points[i];
-    Eigen::Vector3d moved = point.cast<double>();
-    if (input_.several_sensors) moved = T_moving_sensor * moved;
-    moved = motion.since(times[i]) * moved;
-    if (input_.several_sensors) moved = T_moving_sensor.inverse() * moved;
-    point = moved.cast<float>();
+    const Eigen::Vector3d in_moving = T_moving_sensor * point.cast<double>();
+    point = (T_sensor_moving * (motion.since(times[i]) * in_moving)).cast<float>();
   }
   return std::move(timed.scan);
 }

@@ -219,8 +219,8 @@ namespace {
 
 /// Whether a registration is conclusive: scans overlap enough, and if surfaces are moved far, they
 /// fit clearly better, and points are not moved along surfaces much farther, as if these constrain
-/// the motion too little (a narrow view of a wall). It is enough if the few
-/// surfaces across the shift fit, such as poles and signs along a road.
+/// the motion too little (a narrow view of a wall). It is enough if the few surfaces across the
+/// shift fit, such as poles and signs along a road.
 bool is_clear(const Registration& found) {
   if (found.matched < kLeastMatched || found.overlap < kLeastOverlap) return false;
   if (found.shift <= kMostDistance) return true;

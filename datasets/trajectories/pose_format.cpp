@@ -157,11 +157,15 @@ Eigen::Matrix3d euler_rotation(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
+bool has_matrix(const PoseColumns& columns) {
+  return columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4;
+}
+
 /// Whether the row has the quaternion 0 or a matrix of zeros, as motion capture writes it when it
 /// loses its target.
 bool is_lost(const std::vector<double>& numbers, const PoseColumns& columns) {
   const auto zero = [](double number) { return number == 0.0; };
-  if (columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4) {
+  if (has_matrix(columns)) {
     const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(columns.matrix);
     return std::all_of(begin, begin + 12, zero);
   }
@@ -173,9 +177,7 @@ bool is_lost(const std::vector<double>& numbers, const PoseColumns& columns) {
 /// Whether a number of the pose is not finite.
 bool lacks_pose(const std::vector<double>& numbers, const PoseColumns& columns) {
   const auto bad = [&](std::size_t at) { return !std::isfinite(numbers[at]); };
-  const bool whole =
-      columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4;
-  if (!whole) {
+  if (!has_matrix(columns)) {
     return std::any_of(columns.position.begin(), columns.position.end(), bad) ||
            std::any_of(columns.turn.begin(), columns.turn.end(), bad);
   }
@@ -286,8 +288,9 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
   });
   const bool any = std::any_of(file.rows.begin(), file.rows.end(),
                                [](const PoseFile::Row& row) { return row.has_pose(); });
-  if (!any && !first_lost.empty()) {
-    (void)rigid_pose(Eigen::Vector3d::Zero(), Eigen::Vector4d::Zero(), first_lost);  // Throws.
+  if (!any && !first_lost.empty()) {  // Both throw.
+    if (has_matrix(columns)) (void)rigid_pose(Matrix3x4::Zero(), first_lost);
+    (void)rigid_pose(Eigen::Vector3d::Zero(), Eigen::Vector4d::Zero(), first_lost);
   }
   if (columns.time) set_stamps(file, times, nanoseconds, columns.unit);
   if (dropped > 0) {

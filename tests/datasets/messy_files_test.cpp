@@ -287,7 +287,7 @@ TEST_CASE("dumps of programs are named with what makes a sequence of them", "[fi
              {"Scans --poses FILE", "odom_poses.txt", "optimized_poses.txt"});
 }
 
-TEST_CASE("endings of files may have large letters", "[files]") {
+TEST_CASE("endings of files may be in upper case", "[files]") {
   const TemporaryFolder folder;
   write_scans(folder, {"0.BIN", "1.Bin"});
   folder.write("poses.txt", kIdentityRow + kIdentityRow);

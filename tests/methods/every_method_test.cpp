@@ -56,8 +56,8 @@ class KeptEvidence : public EvidenceSink {
   std::vector<std::vector<float>> by_scan;
 };
 
-/// A street with what is seen ahead, where both movers are: a third of the points. hmm_mos removes
-/// nothing there, and has all of it.
+/// A street, of which only the third of the points ahead of the sensor is kept; both movers are
+/// there. hmm_mos removes nothing from these, and gets all points.
 const toy::World& street_for(const ConfiguredMethod& method) {
   static const toy::World around = toy::street(10), ahead = [] {
     toy::Scanner scanner;
