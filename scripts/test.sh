@@ -58,7 +58,9 @@ run_tests() {
   [[ $status -eq 0 || $bad -gt 0 ]] || bad=1
   passed=$((passed + tests - (tests > 0 ? bad : 0)))
   failed=$((failed + bad))
-  [[ $bad -eq 0 ]] || failures+=("tests, $1: see above")
+  [[ $bad -eq 0 ]] && return
+  failures+=("tests, $1: $(sed -nE 's/.*<testcase name="([^"]*)".*status="fail".*/\1/p' "$junit" 2>/dev/null |
+    head -n 20 | paste -sd ';')")
 }
 
 # Lines that the tests of the sanitizers' build ran, by gcovr, in build/coverage/ROOM.html.
