@@ -215,7 +215,11 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
   std::optional<PointClock> clock;
   if (sequence.deskew) clock = point_clock_of(sequence);
   if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {
-    sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego);
+    std::optional<Eigen::Vector3d> up;
+    if (sequence.up_choice && sequence.up_choice->known()) {
+      up = sequence.up_choice->known()->direction;
+    }
+    sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego, up);
   }
   // The ego vehicle is fixed in the sensor frame, so it is removed before the motion correction.
   if (clock) {

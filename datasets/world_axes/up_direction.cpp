@@ -349,7 +349,7 @@ GravityEvidence estimate_gravity(const ScanSource& scans, const Vector3d& usual)
 
 UpChoice::UpChoice(const std::optional<Eigen::Vector3d>& given) {
   if (!given) return;
-  up_ = UpDirection{*given, UpDirection::Source::kGiven};
+  known_ = up_ = UpDirection{*given, UpDirection::Source::kGiven};
 }
 
 const UpDirection& UpChoice::get(const ScanSource& scans) const {

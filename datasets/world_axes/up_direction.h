@@ -83,11 +83,14 @@ class UpChoice {
  public:
   explicit UpChoice(const std::optional<Eigen::Vector3d>& given);
   /// A known direction, without an estimate.
-  explicit UpChoice(const UpDirection& known) : up_(known) {}
+  explicit UpChoice(const UpDirection& known) : known_(known), up_(known) {}
   /// Thread-safe. @throws DataError if a scan cannot be read
   const UpDirection& get(const ScanSource& scans) const;
+  /// The direction that was known from the start, or none.
+  [[nodiscard]] const std::optional<UpDirection>& known() const { return known_; }
 
  private:
+  std::optional<UpDirection> known_;
   mutable std::once_flag once_;
   mutable std::optional<UpDirection> up_;
 };
