@@ -13,6 +13,7 @@
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
 #include "benchmark/process/split_sensors.h"
+#include "core/sampling.h"
 #include "core/scan/local_frame.h"
 #include "datasets/layouts.h"
 #include "methods/controls/controls.h"
@@ -87,12 +88,25 @@ ScanSpool spool_of(const MethodTask& task, const char* what) {
   return task.spool_beside.empty() ? ScanSpool(scans) : ScanSpool(scans, task.spool_beside, what);
 }
 
+/// The spin axis of the sensor in the frame of the points, as the scans show it. Also points of a
+/// known sensor may be stored in the frame of a vehicle, an IMU or a camera. Merged clouds have
+/// none before they are split.
+Eigen::Vector3d spin_axis_of(const Sequence& sequence) {
+  if (is_merged(sequence)) return Eigen::Vector3d::UnitZ();
+  const ScanSource& source = *sequence.scans;
+  if (source.sensor().is_estimated()) return source.sensor().spin_axis;
+  std::vector<Scan> scans;
+  for (const std::size_t i : evenly_spread(source.size(), 5)) scans.push_back(source.load(i));
+  return estimate_spin_axis(scans);
+}
+
 }  // namespace
 
 MethodAnswer run_remover(Remover& remover, const MethodTask& task) {
   const std::string& name = task.request->name;
-  // The frame of all methods. Masks are by point index, so they need no transformation back.
-  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
+  // The frames of all methods. Masks are by point index, so they need no transformation back.
+  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame(),
+                               spin_axis_of(*task.sequence));
   const TimedSource scans(local, online_rule(task));
   CheckedSink sink(name, scans, MaskStore(spool_of(task, "masks")));
   StageTimes times;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/scan/local_frame.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/returns.h"
 #include "datasets/ego/sensor_places.h"
@@ -207,7 +208,8 @@ class SplitSensors : public Remover {
     if (context.reasons != nullptr) inner.reasons = &reasons.emplace(pieces, *context.reasons);
     std::optional<JoinedEvidence> evidence;
     if (context.evidence != nullptr) inner.evidence = &evidence.emplace(pieces, *context.evidence);
-    method_->run(pieces, masks, inner);
+    const LocalFrameSource upright(pieces, Pose::Identity(), pieces.sensor().spin_axis);
+    method_->run(upright, masks, inner);
   }
 
  private:
@@ -217,10 +219,15 @@ class SplitSensors : public Remover {
 
 }  // namespace
 
+bool is_merged(const Sequence& sequence) {
+  // Scans of several topics are apart already.
+  return sequence.sensor_origin && !sequence.sensor_origin->field.empty() &&
+         sequence.topics.empty();
+}
+
 std::unique_ptr<Remover> with_split_sensors(std::unique_ptr<Remover> method,
                                             const Sequence& sequence) {
-  if (!sequence.sensor_origin || sequence.sensor_origin->field.empty()) return method;
-  if (!sequence.topics.empty()) return method;  // Scans of several sensors are apart already.
+  if (!is_merged(sequence)) return method;
   return std::make_unique<SplitSensors>(std::move(method), sequence);
 }
 

@@ -8,6 +8,10 @@
 
 namespace raymoval {
 
+/// Whether the clouds of `sequence` are merged from several sensors, so that each cloud has to be
+/// split.
+bool is_merged(const Sequence& sequence);
+
 /// `method` for merged clouds of several sensors: it gets each cloud as one scan for each sensor,
 /// in the order of the sensors' numbers, whose points and pose have their origin where the beams
 /// of that sensor start. Its answers are put together again, so that masks have the indices of the
