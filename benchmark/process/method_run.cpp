@@ -13,7 +13,6 @@
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
 #include "benchmark/process/split_sensors.h"
-#include "core/sampling.h"
 #include "core/scan/local_frame.h"
 #include "datasets/layouts.h"
 #include "methods/controls/controls.h"
@@ -86,18 +85,6 @@ std::optional<OnlineRule> online_rule(const MethodTask& task) {
 ScanSpool spool_of(const MethodTask& task, const char* what) {
   const std::size_t scans = task.sequence->scans->size();
   return task.spool_beside.empty() ? ScanSpool(scans) : ScanSpool(scans, task.spool_beside, what);
-}
-
-/// The spin axis of the sensor in the frame of the points, as the scans show it. Also points of a
-/// known sensor may be stored in the frame of a vehicle, an IMU or a camera. Merged clouds have
-/// none before they are split.
-Eigen::Vector3d spin_axis_of(const Sequence& sequence) {
-  if (is_merged(sequence)) return Eigen::Vector3d::UnitZ();
-  const ScanSource& source = *sequence.scans;
-  if (source.sensor().is_estimated()) return source.sensor().spin_axis;
-  std::vector<Scan> scans;
-  for (const std::size_t i : evenly_spread(source.size(), 5)) scans.push_back(source.load(i));
-  return estimate_spin_axis(scans);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/sampling.h"
 #include "core/scan/local_frame.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/returns.h"
@@ -217,12 +218,21 @@ class SplitSensors : public Remover {
   const Sequence& sequence_;
 };
 
-}  // namespace
-
+/// Whether a cloud has points of several sensors. Scans of several topics are apart already.
 bool is_merged(const Sequence& sequence) {
-  // Scans of several topics are apart already.
   return sequence.sensor_origin && !sequence.sensor_origin->field.empty() &&
          sequence.topics.empty();
+}
+
+}  // namespace
+
+Eigen::Vector3d spin_axis_of(const Sequence& sequence) {
+  if (is_merged(sequence)) return Eigen::Vector3d::UnitZ();
+  const ScanSource& source = *sequence.scans;
+  if (source.sensor().is_estimated()) return source.sensor().spin_axis;
+  std::vector<Scan> scans;
+  for (const std::size_t i : evenly_spread(source.size(), 5)) scans.push_back(source.load(i));
+  return estimate_spin_axis(scans);
 }
 
 std::unique_ptr<Remover> with_split_sensors(std::unique_ptr<Remover> method,
