@@ -47,7 +47,7 @@ DataRecord Sequence::record() const {
                   poses_file,
                   scans->sensor().name,
                   scans->sensor().basis};
-  data.up = up_text(up().direction);
+  data.up = axis_text(up().direction);
   data.up_source = up_source_name(up().source);
   data.scan_period_s = scan_period_s;
   data.range_m = range_m;

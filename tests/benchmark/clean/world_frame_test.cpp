@@ -92,7 +92,7 @@ TEST_CASE("no method is changed by a shift of the world, or an exchange of its a
   Pose y_down = Pose::Identity();
   y_down.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   const MovedStreet turned(y_down, kStep);
-  REQUIRE(up_text(turned.moved.up().direction) == "-y");
+  REQUIRE(axis_text(turned.moved.up().direction) == "-y");
   for (const MethodRequest& request : all_methods()) {
     INFO(request.name);
     const MaskStore here = masks_on(utm.street, request);
