@@ -27,7 +27,8 @@ constexpr double kAtRest = 0.05;    // metres
 constexpr double kTurnAtRest = 0.5 * kDegree;
 constexpr MotionSigma kStepSigma{0.005, 0.0005};  // Of odometry from scan to scan.
 constexpr MotionSigma kFreeSigma{0.3, 0.02};      // The same where it is not determined.
-constexpr MotionSigma kGivenSigma{1.0, 0.05};     // Of given poses.
+/// Of given poses: weak enough that a jump of 2 m does not bend hundreds of scans.
+constexpr MotionSigma kGivenSigma{5.0, 0.25};
 constexpr std::size_t kScansAtOnce = 8;
 
 double median_range_of(const ScanSource& scans) {
@@ -225,13 +226,13 @@ PoseEstimate estimate_poses(MovingScans input) {
   estimate.poses = with_loops(input, steps, step_edges(steps, nullptr), steps.poses(), estimate);
   if (is_at_rest(estimate.poses)) {
     estimate.notes.push_back(
-        "The sensor was at rest: the estimated poses differ by less than 0.05 m and 0.5 degrees. "
-        "Or everything else in view moves as the sensor does.");
-    return estimate;
+        "The sensor was at rest, or all that it sees moves along with it: the estimated poses "
+        "differ by less than 0.05 m and 0.5 degrees.");
+  } else {
+    estimate.notes.push_back(fmt::format(
+        "The poses are estimated from the scans: a path of {} m with {}.",
+        fixed_text(path_length(estimate.poses), 1), counted_text(estimate.loops, "closed loop")));
   }
-  estimate.notes.push_back(fmt::format(
-      "The poses are estimated from the scans: a path of {} m with {}.",
-      fixed_text(path_length(estimate.poses), 1), counted_text(estimate.loops, "closed loop")));
   note_uncertain(steps, estimate.notes);
   return estimate;
 }

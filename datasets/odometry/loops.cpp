@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLoopStrideShare = 0.4, kLeastStride = 0.5, kMostStride = 5.0;  // of the range; metres
+constexpr double kLoopStrideShare = 0.4, kLeastStride = 0.5,
+                 kMostStride = 5.0;   // of the range; metres
 constexpr double kPathStrides = 8.0;  // Shortest path between two passes, strides.
 constexpr double kNear = 1.5;         // Distance of two passes, strides.
 constexpr double kDrift = 0.01;       // Of the path between two passes.
@@ -24,8 +25,8 @@ constexpr double kStartStep = 1.0;    // Distance of the starts of registration,
 constexpr int kScansAround = 5;       // Scans of a place on either side.
 constexpr std::size_t kFewLoopPoints = 400;
 constexpr double kLeastLoopFit = 0.45;  // Of a match that is used.
-constexpr double kSamePlace = 0.5;  // Matches within this distance are the same, metres.
-constexpr double kDistinct = 0.85;  // Fit of another match, as a share of the best one's.
+constexpr double kSamePlace = 0.5;      // Matches within this distance are the same, metres.
+constexpr double kDistinct = 0.85;      // Fit of another match, as a share of the best one's.
 constexpr MotionSigma kLoopSigma{0.02, 0.0007};
 
 struct Candidate {
@@ -146,7 +147,8 @@ class LoopSearch {
 
 std::vector<GraphEdge> find_loops(const MovingScans& input, const std::vector<Pose>& poses,
                                   const std::vector<double>& times) {
-  const double stride = std::clamp(kLoopStrideShare * input.median_range, kLeastStride, kMostStride);
+  const double stride =
+      std::clamp(kLoopStrideShare * input.median_range, kLeastStride, kMostStride);
   const std::vector<Candidate> candidates = candidates_of(poses, stride);
   const LoopSearch search(input, poses, times, stride);
   std::vector<std::optional<GraphEdge>> found(candidates.size());

@@ -74,6 +74,16 @@ class Deskewing {
   std::vector<Eigen::Isometry3f> parts_;
 };
 
+/// Whether planes determine the motion in all directions. Single points do not count: along the
+/// edges of a corridor they seem to.
+bool is_determined(const registration::Matches& matches) {
+  registration::Matches planes;
+  for (const registration::Match& match : matches) {
+    if (match.weight == 1.0) planes.push_back(match);
+  }
+  return !planes.empty() && registration::plane_step(planes, kOnMap, kLeastShare).determined == 6;
+}
+
 }  // namespace
 
 double cell_for(double median_range) {
@@ -113,12 +123,12 @@ Registered register_to_map(const PlaneMap& map, const std::vector<Vector3f>& poi
     const registration::PlaneStep step = registration::plane_step(matches, cut, kLeastShare);
     const Pose before = result.T_map_sensor;
     result.T_map_sensor = step.motion * before;
-    result.determined = step.determined == 6;
     const double moved = (result.T_map_sensor.translation() - before.translation()).norm() +
                          10.0 * (step.motion.linear() - Eigen::Matrix3d::Identity()).norm();
     if (step.determined == 0 || (now <= kLeastReach && moved < 0.002)) break;
   }
   const registration::Matches matches = map.match(points, result.T_map_sensor, 2.0 * map.cell());
+  result.determined = is_determined(matches);
   double on_map = 0.0;
   for (const registration::Match& match : matches) {
     on_map += std::max(0.0, 1.0 - std::abs(match.distance) / kOnMap);
