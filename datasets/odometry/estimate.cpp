@@ -196,24 +196,31 @@ std::string fit_text(const registration::PoseFit& fit) {
                      fixed_text(worst_pair(fit).distance_m, 3));
 }
 
-/// Whether poses fit clearly worse than others.
-bool is_worse(const registration::PoseFit& fit, const registration::PoseFit& other) {
-  constexpr double kTolerance = 0.005;  // metres
-  if (other.pairs.empty()) return false;
-  if (fit.pairs.empty() || fit.distance_m > other.distance_m + kTolerance) return true;
-  return worst_pair(fit).distance_m >
-         std::max(worst_pair(other).distance_m, registration::kMostDistanceOfPair);
-}
+/// Distances between poses and the given ones, metres.
+struct Moved {
+  double median = 0.0, most = 0.0;
+};
 
-/// The largest and the median distance between poses, metres.
-std::string moved_text(const std::vector<Pose>& poses, const std::vector<Pose>& given) {
+Moved moved_between(const std::vector<Pose>& poses, const std::vector<Pose>& given) {
   std::vector<double> moved;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     moved.push_back((poses[i].translation() - given[i].translation()).norm());
   }
   const double most = *std::max_element(moved.begin(), moved.end());
-  return fmt::format("a median of {} m and at most {} m", fixed_text(median_in_place(moved), 3),
-                     fixed_text(most, 3));
+  return {median_in_place(moved), most};
+}
+
+/// Whether poses fit worse than others. If they moved far, the pairs are others, too: returns to a
+/// place that the given poses do not show. Then a little more is allowed.
+bool is_worse(const registration::PoseFit& fit, const registration::PoseFit& other,
+              const Moved& moved) {
+  constexpr double kFar = 0.1, kTolerance = 0.005;  // metres
+  if (other.pairs.empty()) return false;
+  if (fit.pairs.empty()) return true;
+  const double worst = worst_pair(fit).distance_m, other_worst = worst_pair(other).distance_m;
+  if (moved.most <= kFar) return fit.distance_m >= other.distance_m && worst >= other_worst;
+  return fit.distance_m > other.distance_m + kTolerance ||
+         worst > std::max(other_worst, registration::kMostDistanceOfPair);
 }
 
 }  // namespace
@@ -251,17 +258,19 @@ PoseEstimate refine_poses(MovingScans input, const std::vector<Pose>& given) {
   poses = optimised(std::move(poses), edges);
   poses = with_loops(input, steps, std::move(edges), std::move(poses), estimate);
   const registration::PoseFit before = fit_of(input, given), after = fit_of(input, poses);
+  const Moved moved = moved_between(poses, given);
   const std::string change =
       "from " + fit_text(before) + " to " + fit_text(after) + " between overlapping scans";
-  if (is_worse(after, before)) {
+  if (is_worse(after, before, moved)) {
     estimate.poses = given;
     estimate.notes.push_back("The given poses are kept: refined poses would fit worse, " + change +
                              ".");
     return estimate;
   }
-  estimate.notes.push_back(fmt::format("The poses are refined: moved by {}, with {}. They fit {}.",
-                                       moved_text(poses, given),
-                                       counted_text(estimate.loops, "closed loop"), change));
+  estimate.notes.push_back(fmt::format(
+      "The poses are refined: moved by a median of {} m and at most {} m, with {}. They fit {}.",
+      fixed_text(moved.median, 3), fixed_text(moved.most, 3),
+      counted_text(estimate.loops, "closed loop"), change));
   estimate.poses = std::move(poses);
   note_uncertain(steps, estimate.notes);
   return estimate;
