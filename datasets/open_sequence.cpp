@@ -10,6 +10,7 @@
 #include "datasets/ego/ego_region.h"
 #include "datasets/ego/sensor_origin.h"
 #include "datasets/layouts.h"
+#include "datasets/sequence_poses.h"
 
 namespace raymoval {
 namespace {
@@ -203,14 +204,17 @@ void bring_to_sensor_origin(Sequence& sequence) {
 
 }  // namespace
 
-Sequence open_sequence(const std::string& path, const SequenceOptions& options,
+Sequence open_sequence(const std::string& path, const SequenceOptions& given,
                        const OpenContext& context) {
+  SequenceOptions options = given;
+  const PoseWork pose_work = take_pose_work(options);
   const Layout* layout = recognised_layout(path);
   if (layout == nullptr) throw_unrecognised(path);
   if (!layout->scenes && layout->scan_folder.empty()) check_not_part(path, options);
   check_topics(*layout, path, options);
   Sequence sequence = layout->open(path, options, context);
   check_label_rule(sequence, options);
+  make_poses(sequence, pose_work, context);
   if (sequence.sensor_origin) bring_to_sensor_origin(sequence);
   std::optional<PointClock> clock;
   if (sequence.deskew) clock = point_clock_of(sequence);
@@ -233,7 +237,10 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
 std::string sequence_name(const std::string& path, const SequenceOptions& options) {
   if (options.name) return *options.name;
   const SceneNames* scenes = scenes_of(path);
-  return scenes != nullptr ? scenes->sequence_name(path) : open_sequence(path, options).name;
+  if (scenes != nullptr) return scenes->sequence_name(path);
+  SequenceOptions quick = options;
+  (void)take_pose_work(quick);  // The name does not depend on the poses.
+  return open_sequence(path, quick).name;
 }
 
 std::vector<std::string> scene_names() {

@@ -104,7 +104,9 @@ struct Sequence {
   EgoRegion drop_ego;      ///< As the user gave it; left out of `scans` (see `EgoFreeSource`).
   std::string frames;      ///< The range as used, "2350:2670:2".
   std::string poses_file;  ///< Name of the pose file, without a path.
-  std::string source;      ///< Free text on origin and licence.
+  /// Estimated or refined poses of the frame of the stored points; empty: the poses are the user's.
+  std::vector<Pose> made_poses = {};
+  std::string source;  ///< Free text on origin and licence.
   std::optional<double> scan_period_s;
   /// Calibration "Tr" if the pose file has poses of a camera; the scans' poses contain it.
   std::optional<Pose> T_camera_lidar = std::nullopt;

@@ -137,7 +137,7 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
 }
 
 void CleanOutputs::add_views(const CleanPaths& paths, const CleanWriting& writing) {
-  const ViewTexts texts{sequence_.name, writing.method};
+  const ViewTexts texts{sequence_.name, writing.method, !sequence_.made_poses.empty()};
   if (!paths.page.empty()) {
     outputs_.push_back(std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
   }

@@ -48,7 +48,8 @@ const std::vector<ReadingOption>& reading_options() {
        [](Options& o, Text, Text text) { o.frames = parse_frame_range(text); }},
       {"poses", "FILE",
        "Pose file: a name in the sequence folder, or a path; the word identity for a stationary "
-       "sensor",
+       "sensor, estimate to estimate the poses from the scans, or refine or refine:FILE to improve "
+       "the given ones",
        set_text<&Options::poses>},
       {"pose-format", "NAME",
        "Format of the pose file (see `raymoval list pose-formats`; default: detected from its "

@@ -189,7 +189,8 @@ std::vector<Finding> unopenable_findings(const std::string& path, const Sequence
 }
 
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
-                              const OpenContext& context) {
+                              const OpenContext& context,
+                              const std::function<void(const Sequence&)>& opened) {
   InspectionReport report;
   report.sequence = std::filesystem::path(path).filename().string();
   report.findings = unopenable_findings(path, options);
@@ -206,6 +207,7 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
          .remedy = error.gap().remedy});
     return report;
   }
+  if (opened) opened(*sequence);
   return inspect(*sequence, context.threads, context.cancel);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/registration/register_scans.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,13 +8,12 @@
 #include <optional>
 
 #include "core/sampling.h"
+#include "datasets/registration/plane_step.h"
 
 namespace raymoval::registration {
 namespace {
 
 using Eigen::Vector3d;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kMostPoints = 1500;
 constexpr std::size_t kFewPoints = 300;  // They show whether a wide reach is worth its time.
@@ -26,18 +24,10 @@ constexpr double kLeastReach = 0.6;   // metres from a point to its counterpart
 constexpr double kWideReach = 3.0;    // the same for guesses with a large error
 constexpr double kOtherReach = 1.5;   // the same for other guesses
 constexpr double kLeastCut = 0.05;    // metres at which Tukey's weight ends
-constexpr double kDetermined = 0.01;  // Least share of the weights that determines a direction.
 constexpr double kOnePlace = 0.5;     // metres
 constexpr double kAcross = 0.3;       // Least sine of the angle between a way and a surface across.
 constexpr double kClearlyBetter = 0.2;  // Least gain in overlap across the way from the guess.
 constexpr int kSteps = 15;
-
-/// A point of `to` in the frame of `from`, and its surface.
-struct Match {
-  Vector3d at, normal;
-  double distance;  ///< Signed, metres.
-};
-using Matches = std::vector<Match>;
 
 Matches find_matches(const SurfaceCloud& from, const std::vector<SurfacePoint>& points,
                      const Pose& motion, double reach) {
@@ -53,60 +43,12 @@ Matches find_matches(const SurfaceCloud& from, const std::vector<SurfacePoint>& 
   return matches;
 }
 
-/// Standard deviation of the distances by their median, for a normal distribution.
-double robust_deviation(const Matches& matches) {
-  if (matches.empty()) return 0.0;
-  std::vector<double> sizes;
-  for (const Match& match : matches) sizes.push_back(std::abs(match.distance));
-  return 1.4826 * median_in_place(sizes);
-}
-
 double overlap_of(const Matches& matches, std::size_t points) {
   double sum = 0.0;
   for (const Match& match : matches) {
     sum += std::max(0.0, 1.0 - std::abs(match.distance) / kOnSurface);
   }
   return points == 0 ? 0.0 : sum / static_cast<double>(points);
-}
-
-/// One Gauss-Newton step about the centre of the matches. Rotations are scaled to the distance that
-/// they move points.
-Pose step_of(const Matches& matches, double cut) {
-  Vector3d centre = Vector3d::Zero();
-  for (const Match& match : matches) centre += match.at;
-  centre /= static_cast<double>(matches.size());
-  double square = 0.0;
-  for (const Match& match : matches) square += (match.at - centre).squaredNorm();
-  const double lever = std::sqrt(square / static_cast<double>(matches.size()));
-
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  double total = 0.0;
-  for (const Match& match : matches) {
-    const double u = match.distance / cut;
-    if (std::abs(u) >= 1.0) continue;
-    const double weight = (1.0 - u * u) * (1.0 - u * u);
-    Vector6d jacobian;
-    jacobian << (match.at - centre).cross(match.normal) / lever, match.normal;
-    hessian += weight * jacobian * jacobian.transpose();
-    gradient += weight * match.distance * jacobian;
-    total += weight;
-  }
-  Pose step = Pose::Identity();
-  if (total < static_cast<double>(kFewestMatches) / 2.0) return step;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(hessian / total);
-  Vector6d delta = Vector6d::Zero();
-  for (int k = 0; k < 6; ++k) {
-    if (solver.eigenvalues()[k] < kDetermined) continue;
-    const Vector6d direction = solver.eigenvectors().col(k);
-    delta -= direction.dot(gradient) / total / solver.eigenvalues()[k] * direction;
-  }
-  const Vector3d turn = delta.head<3>() / lever;
-  if (turn.norm() > 1e-12) {
-    step.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  }
-  step.translation() = centre + delta.tail<3>() - step.linear() * centre;
-  return step;
 }
 
 /// Searches counterparts within `reach` metres at first, and nearer with each step.
@@ -117,8 +59,8 @@ Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, P
     const Matches matches = find_matches(from, points, motion, now);
     if (matches.size() < kFewestMatches) break;
     const double loose = 0.6 * reach * std::pow(0.6, k);
-    const Pose step =
-        step_of(matches, std::max({3.0 * robust_deviation(matches), kLeastCut, loose}));
+    const double cut = std::max({3.0 * robust_deviation(matches), kLeastCut, loose});
+    const Pose step = plane_step(matches, cut).motion;
     motion = step * motion;
     const double moved =
         step.translation().norm() + 10.0 * (step.linear() - Eigen::Matrix3d::Identity()).norm();

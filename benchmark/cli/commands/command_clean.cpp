@@ -35,6 +35,7 @@ struct CleanFlags {
   bool confidence = false;
   bool overwrite = false;
   bool force = false;
+  PosesFlag poses;
   ProcessFlags process;
   WorkFlags work;
 };
@@ -140,6 +141,9 @@ CleanPaths checked_paths(const CleanFlags& flags) {
     throw UsageError("-o FILE is missing: name the cleaned map's file, or another output.");
   }
   check_paths(paths);
+  OutputFlag poses = flags.poses.file;
+  poses.overwrite = flags.overwrite;
+  poses.check();
   return paths;
 }
 
@@ -168,6 +172,7 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
                     sequence.frames + ").");
   }
   check_apart_from(sequence, paths, flags.reading.files());
+  flags.poses.write(sequence);
   if (method.entry->needs_truth && !sequence.labels) {
     throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
                      " needs them; choose another --method.");
@@ -319,6 +324,7 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
   options.add("--html", "FILE", flags.page,
               "Also write a page with a 3-D view of kept and removed points (.html)");
   options.add("--picture", "FILE", flags.picture, "Also write the map from above (.png)");
+  flags.poses.add_to(options, false);
   options.add("--voxel", "METRES", flags.voxel,
               "Write one point per voxel of this size: the mean position and intensity, and the "
               "other fields of the point nearest to the centre of the voxel");
@@ -356,6 +362,7 @@ Command add_clean_command(CommandParser& program) {
       "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
       "  raymoval clean data/05 --scans cleaned --html map.html --picture map.png\n"
       "  raymoval clean data/05 -o tiles --tiles 100\n"
+      "  raymoval clean scans/ --poses estimate -o static.pcd --write-poses poses.txt\n"
       "The data is first checked as by `raymoval inspect`. Mistakes that make the map wrong are "
       "refused\n"
       "(see `raymoval inspect --list`) unless --force is given. Points on the ego vehicle "

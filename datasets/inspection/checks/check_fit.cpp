@@ -10,6 +10,7 @@
 #include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/inspection/evidence/pose_hypotheses.h"
 #include "datasets/inspection/evidence/time_offset.h"
+#include "datasets/registration/reposed_source.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -65,25 +66,6 @@ std::string remedy_of(const Samples& samples, const PoseFit& fit) {
       improve);
 }
 
-/// The scans under other poses.
-class ReposedScans : public ScanSource {
- public:
-  ReposedScans(const ScanSource& scans, const PoseHypothesis& hypothesis)
-      : scans_(scans), hypothesis_(hypothesis) {}
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Pose pose(std::size_t index) const override { return hypothesis_.pose(index); }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = scans_.load(index);
-    scan.T_world_sensor = pose(index);
-    return scan;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return scans_.sensor(); }
-
- private:
-  const ScanSource& scans_;
-  const PoseHypothesis& hypothesis_;
-};
-
 /// Tries the hypotheses on poses again: similar scans along a street agree under wrong poses, too,
 /// but do not fit to the centimetre. Hypotheses under which scans agree less are left out.
 std::optional<Finding> explained(Samples& samples, const PoseFit& given) {
@@ -92,7 +74,9 @@ std::optional<Finding> explained(Samples& samples, const PoseFit& given) {
   const double least = agreement.share([&](std::size_t i) { return samples.poses()[i]; });
   for (const PoseHypothesis& hypothesis : pose_hypotheses(samples)) {
     if (agreement.share(hypothesis.pose) < least) continue;
-    const ReposedScans scans(*samples.sequence().scans, hypothesis);
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < samples.size(); ++i) poses.push_back(hypothesis.pose(i));
+    const ReposedSource scans(samples.sequence().scans, std::move(poses));
     const PoseFit fit = registration::measure_pose_fit(scans, samples.threads(), samples.cancel());
     if (!fits(fit) || fit.distance_m > kExplained * given.distance_m ||
         10 * fit.pairs.size() < 9 * given.pairs.size()) {
