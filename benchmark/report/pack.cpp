@@ -42,23 +42,13 @@ void append_differences(const std::vector<std::uint16_t>& values, std::string& b
 
 /// The origin and the resolution of the points' coordinates.
 struct Frame {
-  std::array<std::int32_t, 3> origin{};  ///< Voxels.
-  int shift = 0;                         ///< 2^shift steps are one unit of a coordinate.
+  MapSteps origin{};  ///< Voxels.
+  int shift = 0;      ///< 2^shift steps are one unit of a coordinate.
 };
 
 Frame frame_of(const std::vector<ShownPoint>& points) {
   Frame frame;
-  std::int64_t widest = 0;
-  for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
-    const auto [low, high] = std::minmax_element(
-        points.begin(), points.end(),
-        [&](const auto& a, const auto& b) { return a.step[axis] < b.step[axis]; });
-    frame.origin[axis] = static_cast<std::int32_t>(
-        std::floor(static_cast<double>(low->step[axis]) / kStepsPerVoxel));
-    widest = std::max(
-        widest, std::int64_t{high->step[axis]} - std::int64_t{frame.origin[axis]} * kStepsPerVoxel);
-  }
-  while (widest >> frame.shift >= 1 << kBits) ++frame.shift;
+  frame.shift = coordinate_shift(points, frame.origin);
   return frame;
 }
 
@@ -165,6 +155,24 @@ std::string page_data(const std::vector<std::string>& heads) {
                      fmt::join(heads, ","));
 }
 
+int coordinate_shift(const std::vector<ShownPoint>& points, MapSteps& origin) {
+  for (int shift = 0;; ++shift) {
+    // The corner is a whole number of units, so that units and cells of several units have common
+    // borders.
+    const std::int64_t edge = std::max<std::int64_t>(kStepsPerVoxel, std::int64_t{1} << shift);
+    std::int64_t widest = 0;
+    for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
+      const auto [low, high] = std::minmax_element(
+          points.begin(), points.end(),
+          [&](const auto& a, const auto& b) { return a.step[axis] < b.step[axis]; });
+      const std::int64_t corner = (low->step[axis] - (low->step[axis] % edge + edge) % edge);
+      origin[axis] = static_cast<std::int32_t>(corner / kStepsPerVoxel);
+      widest = std::max(widest, high->step[axis] - corner);
+    }
+    if (widest >> shift < 1 << kBits) return shift;
+  }
+}
+
 PackedScene pack_scene(const Scene& scene, std::size_t number) {
   ordered_json head;
   const Frame frame = frame_of(scene.points);
@@ -197,6 +205,13 @@ PackedScene pack_scene(const Scene& scene, std::size_t number) {
   packed.streams.emplace_back(prefix, base64(deflated(geometry_bytes(scene, frame))));
   for (std::size_t i = 0; i < scene.cells.size(); ++i) {
     head["cells"].push_back(cell_record(scene.cells[i], scene.counts[i]));
+  }
+  if (scene.is_unlabelled) {
+    const std::string review = script_json(to_json(scene.review));
+    packed.streams.emplace_back(prefix + "-review", base64(deflated(review)));
+    head["confidences"] = scene.confidences;
+  }
+  for (std::size_t i = 0; i < scene.verdicts.size(); ++i) {
     const std::vector<std::uint8_t>& bytes = scene.verdicts[i];
     packed.streams.emplace_back(
         prefix + "-" + std::to_string(i),
