@@ -18,25 +18,9 @@ TableCell mean_over_sequences(const RunResults& results, const std::string& cell
 }
 
 std::string chart_html(const Chart& chart) {
-  return chart.empty() ? "" : "<div class=\"chart\">" + chart.svg("") + "</div>\n";
-}
-
-/// The method with the best mean of the first protocol's main rate.
-std::pair<std::string, std::string> best_method(const RunResults& results) {
-  std::pair<std::string, std::string> best;
-  if (results.protocols.empty()) return best;
-  const std::string& protocol = results.protocols.front();
-  const std::string rate = results.headline_of(protocol);
-  if (rate.empty()) return best;
-  std::optional<double> highest;
-  for (const std::string& method : results.methods) {
-    if (results.is_control(method)) continue;
-    const TableCell mean = mean_over_sequences(results, method, protocol, rate);
-    if (!mean.value || (highest && !rate_spec(rate).is_better(*mean.value, *highest))) continue;
-    highest = mean.value;
-    best = {method, "mean " + rate + " " + mean.text + " by " + protocol};
-  }
-  return best;
+  return chart.empty() ? ""
+                       : "<div class=\"chart\" style=\"flex-basis:" + length_text(chart.width()) +
+                             "px\">" + chart.svg("") + "</div>\n";
 }
 
 }  // namespace
@@ -51,10 +35,6 @@ std::string facts_html(const ResultsRecord& record, const RunResults& results) {
                      ", controls included, on " +
                      counted_text(results.sequences.size(), "sequence") + " with " +
                      counted_text(scans, "scan") + ". ";
-  const auto [best, why] = best_method(results);
-  if (!best.empty()) {
-    html += "Most accurate: <strong>" + html_name(best) + "</strong> (" + html_text(why) + "). ";
-  }
   const auto failed = std::ranges::count_if(results.cells, [](auto& cell) { return !cell.ok(); });
   if (failed > 0)
     html += bad(counted_text(static_cast<std::size_t>(failed), "failed cell") + ", see below.");

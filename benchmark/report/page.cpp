@@ -178,11 +178,6 @@ std::string title_of(const RunResults& results) {
          listed(results.sequences, "sequences");
 }
 
-std::string subtitle(const RunResults& results) {
-  return "Which points are removed, and how well: " + join(results.sequences) + "; scored by " +
-         join(results.protocols);
-}
-
 /// Everything before <body>.
 std::string head_html(const std::string& title) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -225,9 +220,8 @@ Page make_page(const PageRequest& request) {
   const std::string title = title_of(results);
   std::string html = head_html(title) +
                      "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
-                     html_name(title) + "</h1>\n<p>" + html_text(subtitle(results)) +
-                     "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
-                     facts_html(request.run->record(), results);
+                     html_name(title) + "</h1>\n" + facts_html(request.run->record(), results) +
+                     "</header>\n" + navigation_html(sections) + "<main id=\"main\">\n";
   for (const PageSection& section : sections) html += html_section(section);
   html += "</main>\n" + std::string(kFooter) +
           scripts_html("report.js", points.scenes, points.streams) + "</body>\n</html>\n";

@@ -150,9 +150,12 @@ struct PackedScene {
   std::vector<std::pair<std::string, std::string>> streams;  ///< Id and base64 of deflated bytes.
 };
 
-/// 2^shift steps are one unit of a coordinate in a page.
-/// @param origin gets the corner of the points in voxels
-int coordinate_shift(const std::vector<ShownPoint>& points, MapSteps& origin);
+/// The origin and the resolution of the points' coordinates in a page.
+struct PageFrame {
+  MapSteps origin{};  ///< Voxels.
+  int shift = 0;      ///< 2^shift steps are one unit of a coordinate.
+};
+PageFrame page_frame(const std::vector<ShownPoint>& points);
 
 /// @param number of the scene in the page, for the ids of its streams
 PackedScene pack_scene(const Scene& scene, std::size_t number);

@@ -90,8 +90,8 @@ def check_objects(browser):
         "raymovalReview.objects.reduce((sum, {points}) => sum + points.length, 0)"
         " === raymovalReview.base.reduce((sum, removed) => sum + removed, 0)"))
     order = browser.run("raymovalReview.ordered().filter((object) => !object.isScattered)"
-                        ".map(({confidence}) => Math.abs(confidence - 0.5))")
-    check("uncertain objects come first", order == sorted(order), order)
+                        ".map(({confidence, points}) => points.length * (1 - confidence))")
+    check("objects with the most doubtful points come first", order == sorted(order, reverse=True), order)
     check("none is reviewed", browser.run("document.getElementById('left').textContent")
           == f"{len(facts)} of {len(facts)} left to review")
     return len(facts)

@@ -46,7 +46,7 @@ class ReportView {
     choose('sequence', this.scenes.map((scene, i) => [i, scene.head.sequence]));
     element('sequence-label').hidden = this.scenes.length < 2;
     element('sequence').addEventListener('change', () => this.open());
-    for (const id of ['left', 'right']) element(id).addEventListener('change', () => this.openCells());
+    for (const id of ['left', 'right']) element(id).addEventListener('change', () => this.openCells().then(() => this.showWorst()));
     element('colour').addEventListener('change', () => this.paint());
     element('path').addEventListener('change', () => this.set({path: element('path').checked}));
     element('size').addEventListener('input', () => this.set({size: Number(element('size').value)}));
@@ -100,6 +100,7 @@ class ReportView {
     this.tell(-1);
     this.tellThinning();
     this.lookClose();
+    this.showWorst();
   }
 
   async openCells() {
@@ -125,24 +126,16 @@ class ReportView {
   /** Gives each point its colour. */
   paint() {
     if (this.cells.length === 0) return;
-    const {data, visible} = this, by = element('colour').value, dark = isDark();
-    const shades = (low, high) => Array.from({length: 256}, (_, i) =>
-        rgbOf(low).map((value, axis) => Math.min(255, value + (rgbOf(high)[axis] - value) * i / 255)));
-    const kept = dark ? shades('#4c4f54', '#c4c7cc') : shades('#c3c6ca', '#6a6d72');
-    const kinds = [kept, ...this.kindColours.slice(1).map((hex) => shades(hex, hex))];
-    const heights = Array.from({length: 256}, (_, i) => {
-      const at = i / 255 * 9, low = Math.min(8, Math.floor(at));
-      return rgbOf(HEIGHTS[low]).map((value, axis) => value + (rgbOf(HEIGHTS[low + 1])[axis] - value) * (at - low));
-    });
+    const {data, visible} = this, by = element('colour').value;
+    const kinds = [keptShades(), ...this.kindColours.slice(1).map((hex) => shades(rgbOf(hex), rgbOf(hex)))];
+    const heights = HEIGHTS.slice(1).flatMap((high, i) => shades(rgbOf(HEIGHTS[i]), rgbOf(high)).filter((_, k) => k % 9 === 0));
     const labels = data.head.labels.map((label, i) => rgbOf(labelColour(label.id, i)));
     const reasons = Array.from({length: 129}, (_, i) => rgbOf(reasonColour(i - 1)));
-    this.stage.ground = rgbOf(dark ? '#0e0f11' : '#ffffff');
-    this.stage.mark = rgbOf(dark ? '#f0e442' : '#000000');
     this.stage.setPaints(this.cells.map(({bytes, kinds: of}) => {
       const paint = new Uint8Array(4 * data.count);
       for (let i = 0; i < data.count; ++i) {
         if (!visible[of[i]]) continue;
-        const height = Math.round(255 * data.height(i));
+        const height = data.height(i);
         paint.set(by === 'verdict' ? kinds[of[i]][height] : by === 'height' ? heights[height]
             : by === 'label' ? labels[data.labels[i]] : reasons[bytes[i] >> 1], 4 * i);
         paint[4 * i + 3] = of[i] === KEPT_STATIC || of[i] === NOT_EVALUATED ? 1 : 2;
@@ -171,9 +164,36 @@ class ReportView {
   /** The square with most removed points, else the whole map. */
   lookClose() {
     const {kinds} = this.cells[0];
-    const box = this.data.busiest((i) => kinds[i] === TRUE_POSITIVE || kinds[i] === FALSE_POSITIVE);
-    if (box) this.stage.lookAt(box, this.sideways());
+    const [square] = this.data.squares((i) => kinds[i] === TRUE_POSITIVE || kinds[i] === FALSE_POSITIVE, 30, 1);
+    if (square) this.stage.lookAt(square.box, this.sideways());
     else this.lookAtAll();
+  }
+
+  /** The places where the first method errs most, as pictures that open in the view. */
+  showWorst() {
+    const {stage, cells: [{kinds, head: {name}}]} = this, {target, azimuth, polar, range, paints} = stage;
+    const squares = this.data.squares((i) => kinds[i] === FALSE_POSITIVE || kinds[i] === FALSE_NEGATIVE, 20, 10);
+    stage.setPaints(paints.slice(0, 1));
+    const pictures = squares.map(({box}) => {
+      const small = make('canvas', {width: 180, height: 110, 'aria-hidden': 'true'}), {canvas} = stage;
+      stage.lookAt(box, this.sideways());
+      stage.render();
+      const high = canvas.width * 110 / 180;
+      small.getContext('2d').drawImage(canvas, 0, (canvas.height - high) / 2, canvas.width, high, 0, 0, 180, 110);
+      return small;
+    });
+    Object.assign(stage, {target, azimuth, polar, range});
+    stage.setPaints(paints);
+    element('worst-title').textContent = `Where ${name} errs most`;
+    element('worst-title').hidden = squares.length === 0;
+    element('worst').replaceChildren(...squares.map(({box, count}, i) => {
+      const button = make('button', {type: 'button'}, pictures[i], `${i + 1}: ${grouped(count)} shown errors`);
+      button.addEventListener('click', () => {
+        stage.lookAt(box, this.sideways());
+        element('viewer').scrollIntoView({block: 'nearest'});
+      });
+      return make('li', {}, button);
+    }));
   }
 
   lookAtAll() {

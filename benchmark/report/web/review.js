@@ -252,8 +252,9 @@ class Review {
   }
 
   ordered() {
-    const doubt = ({confidence}) => Math.abs(confidence - 0.5), size = ({points}) => points.length;
-    const by = {uncertain: (a, b) => this.hasConfidence ? doubt(a) - doubt(b) : size(a) - size(b),
+    // The expected number of points that are wrongly removed.
+    const size = ({points}) => points.length, doubt = (object) => size(object) * (1 - object.confidence);
+    const by = {uncertain: (a, b) => doubt(b) - doubt(a),
                 large: (a, b) => size(b) - size(a), number: (a, b) => a.number - b.number};
     return [...this.objects].sort((a, b) => a.isScattered - b.isScattered || by[element('order').value](a, b) || a.number - b.number);
   }
@@ -305,21 +306,17 @@ class Review {
 
   paint() {
     if (!this.now) return;
-    const {data, base, now, marked, visible, stage, preview} = this, dark = isDark();
-    const [low, high] = (dark ? ['#4c4f54', '#c4c7cc'] : ['#c3c6ca', '#6a6d72']).map(rgbOf);
-    const colours = LEGEND.map(([, hex]) => rgbOf(hex)), mark = rgbOf(dark ? '#f0e442' : '#000000');
-    const least = preview === null ? 0 : this.threshold(preview), paint = new Uint8Array(4 * data.count);
+    const {data, base, now, marked, visible, preview} = this, mark = rgbOf(isDark() ? '#f0e442' : '#000000');
+    const kept = keptShades(), colours = LEGEND.map(([, hex]) => rgbOf(hex)), paint = new Uint8Array(4 * data.count);
+    const least = preview === null ? 0 : this.threshold(preview);
     for (let i = 0; i < data.count; ++i) {
       const removed = preview === null ? now[i] : this.confidence[i] >= least ? 1 : 0;
       if (!visible[removed] && !marked[i]) continue;
-      const byHand = preview === null && base[i] !== removed, height = data.height(i);
-      paint.set(marked[i] ? mark : byHand ? colours[2 + removed] : removed ? colours[1]
-          : low.map((value, axis) => value + (high[axis] - value) * height), 4 * i);
+      const byHand = preview === null && base[i] !== removed;
+      paint.set(marked[i] ? mark : byHand ? colours[2 + removed] : removed ? colours[1] : kept[data.height(i)], 4 * i);
       paint[4 * i + 3] = marked[i] ? 3 : removed || byHand ? 2 : 1;
     }
-    stage.ground = rgbOf(dark ? '#0e0f11' : '#ffffff');
-    stage.mark = mark;
-    stage.setPaints([paint]);
+    this.stage.setPaints([paint]);
   }
 
   tell(text) {

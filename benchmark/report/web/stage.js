@@ -17,6 +17,10 @@ function make(tag, attributes, ...children) {
   return node;
 }
 
+/** 256 colours between two. */
+const shades = (low, high) => Array.from({length: 256}, (_, i) => low.map((value, axis) => value + (high[axis] - value) * i / 255));
+/** Of kept points, from low to high. */
+const keptShades = () => shades(...(isDark() ? ['#4c4f54', '#c4c7cc'] : ['#c3c6ca', '#6a6d72']).map(rgbOf));
 const rgbOf = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
 /** Bytes of the stream in the script element `id`. */
@@ -74,9 +78,9 @@ class SceneData {
     });
   }
 
-  /** Height of point i, from 0 (low) to 1. */
+  /** Height of point i, from 0 (low) to 255. */
   height(i) {
-    return Math.min(1, Math.max(0, (this.places[4 * i + 2] - this.low) / (this.high - this.low)));
+    return Math.round(255 * Math.min(1, Math.max(0, (this.places[4 * i + 2] - this.low) / (this.high - this.low))));
   }
 
   /** Corners of the map in metres, without the outermost points at each side. */
@@ -85,23 +89,18 @@ class SceneData {
     return [ends.map(([low]) => low * this.step), ends.map(([, high]) => (high + 1) * this.step)];
   }
 
-  /** Corners of the square of 30 m that holds most of the points that `wanted` accepts; null: none. */
-  busiest(wanted) {
-    const size = 30 / this.step, counts = new Map();
-    let best = null;
+  /** The squares of `size` metres that hold most of the points that `wanted` accepts: corners and count. */
+  squares(wanted, size, most) {
+    const units = size / this.step, squares = new Map();
     for (let i = 0; i < this.count; ++i) {
       if (!wanted(i)) continue;
-      const key = Math.floor(this.places[4 * i] / size) * 65536 + Math.floor(this.places[4 * i + 1] / size);
-      const square = counts.get(key) ?? {count: 0, z: 0, i};
+      const [x, y] = [0, 1].map((axis) => Math.floor(this.places[4 * i + axis] / units)), key = x * 65536 + y;
+      const square = squares.get(key) ?? squares.set(key, {count: 0, sum: 0, x: x * size, y: y * size}).get(key);
       ++square.count;
-      square.z += this.places[4 * i + 2];
-      counts.set(key, square);
-      if (best === null || square.count > best.count) best = square;
+      square.sum += this.places[4 * i + 2] * this.step;
     }
-    if (best === null) return null;
-    const low = [0, 1].map((axis) => Math.floor(this.places[4 * best.i + axis] / size) * 30);
-    const z = best.z / best.count * this.step;
-    return [[...low, z - 2], [low[0] + 30, low[1] + 30, z + 2]];
+    return [...squares.values()].sort((a, b) => b.count - a.count).slice(0, most).map(({count, sum, x, y}) => (
+      {count, box: [[x, y, sum / count - 2], [x + size, y + size, sum / count + 2]]}));
   }
 
   /** Of point i, in metres from the scene's origin. */
@@ -174,8 +173,7 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 class Stage {
   constructor(canvas) {
     Object.assign(this, {canvas, target: [0, 0, 0], azimuth: 0, polar: 0.7, range: 50, size: 2, scan: 0, mode: 0,
-                         detail: 1, path: true, chosen: null, ground: [255, 255, 255], mark: [0, 0, 0],
-                         paints: [], buffers: []});
+                         detail: 1, path: true, chosen: null, paints: [], buffers: []});
     this.gl = canvas.getContext('webgl', {antialias: false, powerPreference: 'high-performance'});
     if (this.gl) this.setUp(this.gl);
     else this.flat = canvas.getContext('2d');
@@ -217,6 +215,8 @@ class Stage {
   setPaints(paints) {
     const {gl} = this;
     this.paints = paints;
+    this.ground = rgbOf(isDark() ? '#0e0f11' : '#ffffff');
+    this.mark = rgbOf(isDark() ? '#f0e442' : '#000000');
     if (gl) {
       paints.forEach((paint, side) => {
         this.buffers[side] ??= gl.createBuffer();

@@ -96,15 +96,15 @@ TEST_CASE("Cells of a wide map are whole units of its coordinates") {
   // 0 m to 9,990 m: 799,200 steps need 20 bits, so 16 steps are a unit of 16 bits. The cells grow
   // from 16 steps by a quarter, to 20 steps and more.
   const Scene scene = line_scene(500, 10.0);
-  MapSteps corner{};
-  const int unit = 1 << coordinate_shift(scene.points, corner);
+  const PageFrame frame = page_frame(scene.points);
+  const int unit = 1 << frame.shift;
   CHECK(unit == 16);
   CHECK(scene.review.kept_cell > kStepsPerVoxel);
   CHECK(scene.review.kept_cell % unit == 0);
   CHECK(scene.review.removed_cell % unit == 0);
   for (const ShownPoint& point : scene.points) {
-    const int shown = (point.step[0] - corner[0] * kStepsPerVoxel) / unit * unit;
-    CHECK(map_cell({shown + corner[0] * kStepsPerVoxel, 0, 0}, scene.review.kept_cell)[0] ==
+    const int shown = (point.step[0] - frame.origin[0] * kStepsPerVoxel) / unit * unit;
+    CHECK(map_cell({shown + frame.origin[0] * kStepsPerVoxel, 0, 0}, scene.review.kept_cell)[0] ==
           map_cell(point.step, scene.review.kept_cell)[0]);
   }
 }
