@@ -19,7 +19,7 @@ TableCell mean_over_sequences(const RunResults& results, const std::string& cell
 
 std::string chart_html(const Chart& chart) {
   return chart.empty() ? ""
-                       : "<div class=\"chart\" style=\"flex-basis:" + length_text(chart.width()) +
+                       : "<div class=\"chart\" style=\"--width:" + length_text(chart.width()) +
                              "px\">" + chart.svg("") + "</div>\n";
 }
 

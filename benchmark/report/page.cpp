@@ -204,7 +204,7 @@ std::string scripts_html(const char* view, const std::vector<std::string>& scene
     html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
   }
   html += "<script type=\"application/json\" id=\"scenes\">" + page_data(scenes) + "</script>\n";
-  for (const char* script : {"stage.js", view}) {
+  for (const char* script : {"scene_data.js", "stage.js", view}) {
     html += "<script>\n" + std::string(page_file(script)) + "</script>\n";
   }
   return html;

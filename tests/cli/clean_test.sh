@@ -59,6 +59,7 @@ expect 0 "warning: more than half of all points were removed" \
 expect 2 "--caution 1.5: expected a number from 0" clean drive --caution 1.5 -o map.pcd
 expect 2 "--caution: raymoval has no confidence. Choose another --method" \
   clean drive --method raymoval --caution 0.5 -o map.pcd
+removed=()
 for caution in 0 0.5 1; do
   expect 0 "raymoval_plus:offline, caution $caution removed" \
     clean drive --caution $caution --quiet --labels caution$caution
@@ -68,14 +69,8 @@ holds "more caution removes less" test "${removed[0]}" -ge "${removed[1]}" -a "$
 
 # --edits: the answer that a page holds, without corrections and with one.
 expect 0 "" clean drive --quiet --html reviewed.html --labels reviewed
-python3 - <<'PYTHON'
-import base64, json, re, zlib
-page = open("reviewed.html").read()
-stream = re.search(r'id="scene-0-review">([^<]*)<', page).group(1)
-edits = json.loads(zlib.decompress(base64.b64decode(stream)))
-json.dump({**edits, "keep": [], "remove": []}, open("same.json", "w"))
-json.dump({**edits, "keep": [], "remove": [[0, 0, 0]], "kept_cell": 2 ** 30}, open("positive.json", "w"))
-PYTHON
+edits_of reviewed.html >same.json
+edits_of reviewed.html remove=[[0,0,0]] kept_cell=1073741824 >positive.json
 expect 0 "same.json: 0 removed points kept and 0 kept points removed by hand" \
   clean drive --edits same.json --quiet --labels same
 holds "without corrections the answer is the method's" diff -r reviewed same
@@ -86,7 +81,7 @@ expect 0 "IoU 100.000" score drive --truth same.json --predictions same.json --p
 for option in --method --set --caution; do
   expect 2 "has no effect with --edits" clean drive --edits same.json $option 0.5 -o map.pcd
 done
-expect 2 "the edits are for 12 scans of drive, but there are 5" \
+expect 2 "the edits are for 12 scans of suburb, but there are 5" \
   clean drive --edits same.json --frames 0:4 --quiet -o map.pcd
 expect 2 "12 of 12 scans have another pose or other points" \
   clean drive --edits same.json --drop-ego 5 --quiet -o map.pcd

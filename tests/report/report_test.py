@@ -113,6 +113,38 @@ def check_accessible(browser):
         " part.getAttribute('aria-label'))"))
 
 
+def check_looks(browser):
+    """Contrast, and what a phone shows of the first table without scrolling sideways."""
+    for dark in (False, True):
+        browser.set_dark(dark)
+        low = browser.low_contrast()
+        check(f"contrast is at least 4.5 ({'dark' if dark else 'light'})", low == [], low[:5])
+    browser.set_dark(False)
+    browser.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=False)
+    edges = browser.run("""[...document.querySelector('#methods tbody tr').cells].slice(0, 3).map(
+        (cell) => cell.getBoundingClientRect().right)""")
+    check("a phone shows name, F1 and time", max(edges) <= 390, edges)
+    check("a phone does not scroll sideways", browser.run("document.documentElement.scrollWidth <= 390"))
+    browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=900, deviceScaleFactor=1, mobile=False)
+
+
+def check_worst(browser):
+    """The places with most errors are pictures that open in the view."""
+    browser.run("""(() => { const list = document.getElementById('left');
+        list.selectedIndex = [...list.options].findIndex((one) => one.textContent === 'noop:default');
+        list.dispatchEvent(new Event('change')); })()""")
+    browser.wait("document.getElementById('worst-title').textContent === 'Where noop:default errs most'")
+    counts = browser.run("[...document.querySelectorAll('#worst button')].map("
+                         "(button) => Number(button.textContent.split(': ')[1].split(' ')[0].replace(',', '')))")
+    check("places with more errors come first", counts and counts == sorted(counts, reverse=True), counts)
+    check("and hold no more errors than are shown", sum(counts) <= browser.run(
+        "raymovalView.cells[0].kinds.filter((kind) => kind === 1 || kind === 3).length"))
+    browser.run("raymovalView.lookAtAll()")
+    before = browser.run("raymovalView.stage.range")
+    browser.run("document.querySelector('#worst button').click()")
+    check("a click goes there", browser.run("raymovalView.stage.range") < before)
+
+
 def check_points(browser):
     """The street: a car that moves, walls that do not."""
     view = "raymovalView"
@@ -304,12 +336,14 @@ def main():
             check_theme(browser)
             check_accessible(browser)
             open_view(browser)
+            check_looks(browser)
             check_counts(browser, None)
             check_points(browser)
             check_scans(browser)
             check_click(browser)
             check_pointers(browser)
             check_reasons(browser)
+            check_worst(browser)
             browser.open("many/report.html")
             check("30 cells are shown", browser.run(
                 "document.querySelectorAll('#cells tbody tr').length") == 30)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The review of a cleaned map in a headless Chromium: objects and points are kept and removed, the edits
-are exported, `raymoval clean --edits` applies them, and the masks are those that numpy makes of the file.
+are exported, `raymoval clean --edits` applies them, and the masks are those that the definition of the file gives.
 Usage: review_test.py PATH/TO/raymoval. Exit code 77: no Chromium."""
 import json
+import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
 import time
-
-import numpy as np
 
 import chromium
 
@@ -33,29 +33,50 @@ def program(path, *arguments, code=0):
 
 def removed_by(folder, names):
     """The mask of each scan, from label files."""
-    return [np.fromfile(f"{folder}/{name}.label", np.uint32) & 0xFFFF == 251 for name in names]
+    def mask(name):
+        with open(f"{folder}/{name}.label", "rb") as file:
+            return [word & 0xFFFF == 251 for word, in struct.iter_unpack("<I", file.read())]
+    return [mask(name) for name in names]
+
+
+def product(a, b):
+    """Of two rigid motions, as rows of 3 x 4 matrices."""
+    return [[sum(a[i][k] * b[k][j] for k in range(3)) + (a[i][3] if j == 3 else 0) for j in range(4)] for i in range(3)]
+
+
+def inverse(a):
+    return [[*(a[j][i] for j in range(3)), -sum(a[j][i] * a[j][3] for j in range(3))] for i in range(3)]
+
+
+def rows_of(line):
+    numbers = [float(word) for word in line.split()[-12:]]
+    return [numbers[0:4], numbers[4:8], numbers[8:12]]
 
 
 def expected(edits):
     """The corrected masks, from the definition of the file: runs of removed points, then cells."""
-    poses = np.loadtxt("data/poses.txt").reshape(-1, 3, 4)
-    calibration = np.eye(4)
-    if os.path.exists("data/calib.txt"):
-        line = next(line for line in open("data/calib.txt") if line.startswith("Tr"))
-        calibration[:3] = np.array(line.split()[1:], float).reshape(3, 4)
+    with open("data/poses.txt") as file:
+        poses = [rows_of(line) for line in file]
+    with open("data/calib.txt") as file:
+        calibration = rows_of(next(line for line in file if line.startswith("Tr")))
     keep, remove = {tuple(cell) for cell in edits["keep"]}, {tuple(cell) for cell in edits["remove"]}
+    turn = edits["turn"]
+    upright = [[*turn[0:3], 0.0], [*turn[3:6], 0.0], [*turn[6:9], 0.0]]
     masks = []
     for i, scan in enumerate(edits["scans"]):
-        points = np.fromfile(f"data/velodyne/{scan['name']}.bin", np.float32).reshape(-1, 4)[:, :3]
-        mask = np.zeros(len(points), bool)
+        with open(f"data/velodyne/{scan['name']}.bin", "rb") as file:
+            points = list(struct.iter_unpack("<4f", file.read()))
+        mask = [False] * len(points)
         for first, count in zip(scan["removed"][::2], scan["removed"][1::2]):
-            mask[first:first + count] = True
-        pose = np.linalg.inv(calibration) @ np.vstack([poses[i], [0, 0, 0, 1]]) @ calibration
-        world = points.astype(float) @ pose[:3, :3].T + pose[:3, 3]
-        steps = np.floor(world @ np.array(edits["turn"]).reshape(3, 3).T / edits["step_m"]).astype(int)
-        fates = np.where(mask, [(i, *cell) in keep for cell in map(tuple, (steps // edits["removed_cell"]).tolist())],
-                         [cell in remove for cell in map(tuple, (steps // edits["kept_cell"]).tolist())])
-        masks.append(mask ^ fates)
+            mask[first:first + count] = [True] * count
+        pose = product(upright, product(inverse(calibration), product(poses[i], calibration)))
+        for k, (x, y, z, _) in enumerate(points):
+            steps = [math.floor((row[0] * x + row[1] * y + row[2] * z + row[3]) / edits["step_m"]) for row in pose]
+            if mask[k]:
+                mask[k] = (i, *(step // edits["removed_cell"] for step in steps)) not in keep
+            else:
+                mask[k] = tuple(step // edits["kept_cell"] for step in steps) in remove
+        masks.append(mask)
     return masks
 
 
@@ -169,20 +190,7 @@ def check_looks(browser):
         " return new Set(all).size === all.length; })()"))
     for dark in (False, True):
         browser.set_dark(dark)
-        low = browser.run("""(() => {
-          const part = (value) => value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
-          const light = (text) => { const [r, g, b] = text.match(/[\\d.]+/g).map((value) => part(value / 255));
-                                    return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
-          const ground = (node) => { for (; node; node = node.parentElement) {
-            const colour = getComputedStyle(node).backgroundColor;
-            if (/^rgb\\(/.test(colour)) return colour; } return 'rgb(255, 255, 255)'; };
-          return [...document.querySelectorAll('body *')].filter((node) => node.checkVisibility() && !node.closest('svg, canvas')
-              && [...node.childNodes].some((child) => child.nodeType === 3 && child.textContent.trim())).flatMap((node) => {
-            const [a, b] = [light(getComputedStyle(node).color), light(ground(node))].sort((x, y) => y - x);
-            const ratio = (a + 0.05) / (b + 0.05);
-            return ratio < 4.5 ? [node.tagName + ' ' + node.textContent.slice(0, 20) + ' ' + ratio] : [];
-          });
-        })()""")
+        low = browser.low_contrast()
         check(f"contrast is at least 4.5 ({'dark' if dark else 'light'})", low == [], low)
     browser.set_dark(False)
     browser.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=False)
@@ -197,10 +205,10 @@ def check_edits(raymoval, names):
     out = program(raymoval, "clean", "data", "--edits", "edits.json", "--labels", "after", "-o", "static.pcd", "--quiet",
                   "--html", "corrected.html")
     before, after, wanted = removed_by("before", names), removed_by("after", names), expected(edits)
-    check("the masks are those of the edits", all(np.array_equal(a, b) for a, b in zip(after, wanted)),
-          [int((a != b).sum()) for a, b in zip(after, wanted)])
-    kept = sum(int((b & ~a).sum()) for a, b in zip(after, before))
-    removed = sum(int((a & ~b).sum()) for a, b in zip(after, before))
+    check("the masks are those of the edits", after == wanted,
+          [sum(a != b for a, b in zip(*scans)) for scans in zip(after, wanted)])
+    pairs = [pair for scans in zip(before, after) for pair in zip(*scans)]
+    kept, removed = pairs.count((True, False)), pairs.count((False, True))
     check("points were kept and removed", kept > 0 and removed > 0)
     check("the program counts them", f"{kept:,} removed points kept and {removed:,} kept points removed by hand" in out, out)
     by_file = program(raymoval, "score", "data", "--predictions", "edits.json", "--quiet")
@@ -212,9 +220,10 @@ def check_edits(raymoval, names):
     out = program(raymoval, "clean", "data", "--edits", "edits.json", "--frames", "0:5", "-o", "o.pcd", "--quiet", code=2)
     check("other scans are refused", f"for {len(names)} scans" in out, out)
     path = f"data/velodyne/{names[3]}.bin"
-    points = np.fromfile(path, np.float32)
-    points[0] += 0.01
-    points.tofile(path)
+    with open(path, "r+b") as file:
+        x, = struct.unpack("<f", file.read(4))
+        file.seek(0)
+        file.write(struct.pack("<f", x + 0.01))
     out = program(raymoval, "clean", "data", "--edits", "edits.json", "-o", "o.pcd", "--quiet", code=2)
     check("changed data is reported", f"1 of {len(names)} scans have another pose or other points (first: {names[3]})" in out, out)
     check("and nothing is written", not os.path.exists("o.pcd"))

@@ -195,6 +195,11 @@ void warn_of_labels(const LabelIds& found, const std::string& folder) {
                 ". If some are to be removed, write 251 for those and 9 for the others.");
 }
 
+/// Whether `--predictions` names a file of edits.
+bool is_edits(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".json" && is_file(path);
+}
+
 /// The corrected masks of a file of edits.
 MaskStore edited_masks(const std::string& file, const ScanSource& scans, Progress& progress) {
   const Edits edits = read_edits(file);
@@ -219,7 +224,7 @@ void score_predictions(ScoredSequence& scored, const std::string& folder, Progre
   const ScanSource& scans = *scored.sequence().scans;
   const std::atomic<bool>& cancelled = interrupt_flag();
   Predictions read;
-  if (is_file(folder)) {
+  if (is_edits(folder)) {
     read.masks = edited_masks(folder, scans, progress);
   } else {
     progress.begin("reading predictions", scans.size());
@@ -230,7 +235,7 @@ void score_predictions(ScoredSequence& scored, const std::string& folder, Progre
     progress.end();
   }
   if (!read.note.empty()) progress.say(folder + ": " + read.note);
-  if (read.masks.removed_count() == 0 && !is_file(folder)) warn_of_labels(read.found.ids, folder);
+  if (read.masks.removed_count() == 0 && !is_edits(folder)) warn_of_labels(read.found.ids, folder);
   SequenceScores scores = scored.score(read.masks, &cancelled);
   const std::vector<ProtocolRecord> protocols = protocol_records(scored);
   for (std::size_t i = 0; i < protocols.size(); ++i) {
@@ -361,7 +366,7 @@ ExitCode score(const ScoreFlags& flags) {
           : open_truth_map(flags.truth_map, options);
   report_opening(sequence, progress);
   const std::string predictions =
-      flags.predictions.empty() || is_file(flags.predictions)
+      flags.predictions.empty() || is_edits(flags.predictions)
           ? flags.predictions
           : prediction_folder(flags.predictions, sequence.name).string();
   check_json_is_no_input(flags, predictions, sequence);

@@ -53,7 +53,10 @@ class ReportView {
     element('close').addEventListener('click', () => this.lookClose());
     element('whole').addEventListener('click', () => this.lookAtAll());
     element('above').addEventListener('click', () => this.stage.lookAt(this.data.box(), this.stage.azimuth, 1.57));
-    element('full').addEventListener('click', () => document.fullscreenElement ? document.exitFullscreen() : element('viewer').requestFullscreen());
+    element('full').addEventListener('click', () => {
+      if (document.fullscreenElement) document.exitFullscreen();
+      else element('viewer').requestFullscreen();
+    });
     this.makeKinds();
     this.stage.onClick = (x, y) => this.tell(this.stage.pick(x, y));
     this.stage.canvas.addEventListener('keydown', ({key}) => {
@@ -114,7 +117,8 @@ class ReportView {
     element('left-name').textContent = cells[0].head.name;
     element('right-name').textContent = cells[1]?.head.name ?? '';
     for (let kind = 0; kind < 5; ++kind) {
-      const all = cells.map(({head: {counts}}) => kind < 4 ? counts[kind] : data.head.points_in_range - counts.reduce((a, b) => a + b));
+      const all = cells.map(({head: {counts}}) => kind < 4 ? counts[kind]
+          : data.head.points_in_range - counts.reduce((a, b) => a + b));
       element(`count-${kind}`).textContent = all.map(grouped).join('\n');
       if (kind === 4) element('kind-4').parentElement.hidden = all[0] === 0;
     }
@@ -152,7 +156,10 @@ class ReportView {
     const list = (entries) => place.append(make('ul', {class: 'legend'}, ...entries.map(
         ([colour, name]) => make('li', {}, make('span', {class: 'swatch', style: `--swatch:${colour}`}), name))));
     if (by === 'label') list(head.labels.map((label, i) => [labelColour(label.id, i), `${label.name} (${label.id})`]));
-    if (by === 'height') place.append(make('div', {class: 'height-scale', style: `background:linear-gradient(to right, ${HEIGHTS.join(',')})`}), 'low to high');
+    if (by === 'height') {
+      const style = `background:linear-gradient(to right, ${HEIGHTS.join(',')})`;
+      place.append(make('div', {class: 'height-scale', style}), 'low to high');
+    }
     if (by !== 'reason') return;
     for (const {head: {name, reasons}} of this.cells) {
       if (this.cells.length > 1) place.append(make('strong', {}, name));
@@ -177,9 +184,10 @@ class ReportView {
     const pictures = squares.map(({box}) => {
       const small = make('canvas', {width: 180, height: 110, 'aria-hidden': 'true'}), {canvas} = stage;
       stage.lookAt(box, this.sideways());
+      stage.range *= 0.7;
       stage.render();
-      const high = canvas.width * 110 / 180;
-      small.getContext('2d').drawImage(canvas, 0, (canvas.height - high) / 2, canvas.width, high, 0, 0, 180, 110);
+      const high = Math.min(canvas.height, canvas.width * 110 / 180), wide = high * 180 / 110;
+      small.getContext('2d').drawImage(canvas, (canvas.width - wide) / 2, (canvas.height - high) / 2, wide, high, 0, 0, 180, 110);
       return small;
     });
     Object.assign(stage, {target, azimuth, polar, range});

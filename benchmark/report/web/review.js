@@ -256,17 +256,20 @@ class Review {
     const size = ({points}) => points.length, doubt = (object) => size(object) * (1 - object.confidence);
     const by = {uncertain: (a, b) => doubt(b) - doubt(a),
                 large: (a, b) => size(b) - size(a), number: (a, b) => a.number - b.number};
-    return [...this.objects].sort((a, b) => a.isScattered - b.isScattered || by[element('order').value](a, b) || a.number - b.number);
+    return [...this.objects].sort((a, b) =>
+        a.isScattered - b.isScattered || by[element('order').value](a, b) || a.number - b.number);
   }
 
   list() {
     element('objects').replaceChildren(...this.ordered().map((object) => {
       const {number, points, scans, sizes, confidence, state} = object, first = scans[0], last = scans[scans.length - 1];
-      const facts = [`${grouped(points.length)} points`, ...(object.isScattered ? [] : [`${sizes.map((size) => size.toFixed(1)).join(' × ')} m`]),
+      const size = `${sizes.map((length) => length.toFixed(1)).join(' × ')} m`;
+      const facts = [`${grouped(points.length)} points`, ...(object.isScattered ? [] : [size]),
                      first === last ? `scan ${first}` : `scans ${first} to ${last}`,
                      ...(this.hasConfidence ? [`confidence ${confidence.toFixed(2)}`] : [])];
       const item = make('li', {'data-number': number, class: state},
-          make('button', {type: 'button', class: 'object'}, make('strong', {}, this.title(object)), state ? ` ${state}` : '', make('small', {}, facts.join(', '))),
+          make('button', {type: 'button', class: 'object'}, make('strong', {}, this.title(object)),
+               state ? ` ${state}` : '', make('small', {}, facts.join(', '))),
           make('button', {type: 'button', 'aria-label': `Keep ${this.title(object)}`}, 'Keep'),
           make('button', {type: 'button', 'aria-label': `Remove ${this.title(object)}`}, 'Remove'));
       item.toggleAttribute('aria-current', object === this.selected.object);

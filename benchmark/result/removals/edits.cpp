@@ -236,13 +236,13 @@ EditedMasks apply_edits(const Edits& edits, const ScanSource& scans, const std::
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
     const ReviewedScan& reviewed = edits.scans[i];
-    Mask mask = mask_of(reviewed, where);
-    if (reviewed_scan(scan, {}).digest != reviewed.digest) {
+    const bool fits = scan.size() == reviewed.points;
+    Mask mask = fits ? mask_of(reviewed, where) : Mask(scan.size(), 0);
+    if (!fits || reviewed_scan(scan, {}).digest != reviewed.digest) {
       ++result.changed_scans;
-      can_force = can_force && scan.size() == reviewed.points;
+      can_force = can_force && fits;
       if (first.empty()) first = scan.name;
     }
-    mask.resize(scan.size());
     correct(edits, scan, mask, result);
     result.masks.set(i, mask);
     after_scan();
