@@ -256,7 +256,8 @@ class Review {
     const size = ({points}) => points.length, doubt = (object) => size(object) * (1 - object.confidence);
     const by = {uncertain: (a, b) => doubt(b) - doubt(a),
                 large: (a, b) => size(b) - size(a), number: (a, b) => a.number - b.number};
-    return [...this.objects].sort((a, b) =>
+    const isDone = ({state}) => state !== '';
+    return [...this.objects].sort((a, b) => isDone(a) - isDone(b) ||
         a.isScattered - b.isScattered || by[element('order').value](a, b) || a.number - b.number);
   }
 
