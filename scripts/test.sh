@@ -96,8 +96,7 @@ if [[ -z $all ]]; then
   step "reference results" scripts/check_reference.sh
 else
   step "dependencies" scripts/install_dependencies.sh --all
-  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_PCL="$pcl" -DRAYMOVAL_REPORT_3D=ON \
-    -DRAYMOVAL_PYTHON=ON
+  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_PCL="$pcl" -DRAYMOVAL_PYTHON=ON
   run_tests release --label-regex extra
   step "sanitizer build" build asan-ubsan -DRAYMOVAL_PCL="$pcl"
   find build/asan-ubsan -name '*.gcda' -delete

@@ -153,7 +153,7 @@ void CleanOutputs::add(const Scan& scan, const Mask& mask, const std::string& co
   const PointRecords* records = stored ? &*stored : nullptr;
   ScanRows rows = rows_ ? rows_->rows(scan, records) : ScanRows{};
   if (has_confidence_) rows = rows_with_confidence(rows, layout_, confidence);
-  const CleanedScan cleaned{scan, mask, rows, records};
+  const CleanedScan cleaned{scan, mask, rows, records, confidence};
   for (const auto& output : outputs_) output->add(cleaned);
 }
 

@@ -55,6 +55,41 @@ expect 0 "warning: nothing was removed" clean street --frames 0:1 "${online[@]}"
 expect 0 "warning: more than half of all points were removed" \
   clean street --frames 1:1 --method comb --set comb.milliseconds=0 --quiet -o half.pcd
 
+# --caution: the more, the fewer points are removed.
+expect 2 "--caution 1.5: expected a number from 0" clean drive --caution 1.5 -o map.pcd
+expect 2 "--caution: raymoval has no confidence. Choose another --method" \
+  clean drive --method raymoval --caution 0.5 -o map.pcd
+removed=()
+for caution in 0 0.5 1; do
+  expect 0 "raymoval_plus:offline, caution $caution removed" \
+    clean drive --caution $caution --quiet --labels caution$caution
+  removed[${#removed[@]}]=$(cat caution$caution/*.label | od -An -v -tu4 -w4 | grep -c '^ *251$')
+done
+holds "more caution removes less" test "${removed[0]}" -ge "${removed[1]}" -a "${removed[1]}" -gt "${removed[2]}"
+
+# --edits: the answer that a page holds, without corrections and with one.
+expect 0 "" clean drive --quiet --html reviewed.html --labels reviewed
+edits_of reviewed.html >same.json
+edits_of reviewed.html remove=[[0,0,0]] kept_cell=1073741824 >positive.json
+expect 0 "same.json: 0 removed points kept and 0 kept points removed by hand" \
+  clean drive --edits same.json --quiet --labels same
+holds "without corrections the answer is the method's" diff -r reviewed same
+expect 0 "0 removed points kept and " clean drive --edits positive.json --quiet --labels positive
+holds "a cell of all positive places removes points" test -n "$(diff -rq reviewed positive)"
+expect 0 "IoU 100.000" score drive --truth same.json --predictions same --protocol mos --quiet
+expect 0 "IoU 100.000" score drive --truth same.json --predictions same.json --protocol mos --quiet
+for option in --method --set --caution; do
+  expect 2 "has no effect with --edits" clean drive --edits same.json $option 0.5 -o map.pcd
+done
+expect 2 "the edits are for 12 scans of suburb, but there are 5" \
+  clean drive --edits same.json --frames 0:4 --quiet -o map.pcd
+expect 2 "12 of 12 scans have another pose or other points" \
+  clean drive --edits same.json --drop-ego 5 --quiet -o map.pcd
+expect 2 "is not a file of edits" clean drive --edits drive/sequence.json --quiet -o map.pcd
+expect 2 "missing.json" clean drive --edits missing.json --quiet -o map.pcd
+expect 2 "same.json" clean drive --edits same.json -o same.json --overwrite
+nothing_left "a refusal of edits"
+
 # --range: what is beyond is in no output.
 expect 2 "no point lies within --range 2000:40000" \
   clean street --frames 0:2 "${online[@]}" --range 2000:40000 -o map.pcd

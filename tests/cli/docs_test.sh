@@ -141,7 +141,9 @@ holds "the page of suites has a suite" grep -q '"sweep"' my_suite.json
 run=(run --sequence data/05 --quiet)
 expect 0 "" "${run[@]}" --method raymoval_plus --method raymoval:online --keep-removals --name 05 --out out/05
 for name in old new; do expect 0 "" "${run[@]}" --method raymoval:online --out out/$name; done
-expect 0 "" clean data/05 -o static.pcd --method raymoval:online --quiet
+expect 0 "" clean data/05 -o static.pcd --method raymoval:online --quiet --html map.html
+edits_of map.html >edits.json
+rm map.html
 cd "$work" || exit 1
 
 # These take long or need what is not here; that they are understood is checked above.

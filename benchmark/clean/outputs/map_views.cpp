@@ -7,7 +7,6 @@
 
 #include "benchmark/picture/canvas/colours.h"
 #include "benchmark/report/page.h"
-#include "core/error.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -89,18 +88,10 @@ MapPageFile::MapPageFile(const std::filesystem::path& path, ViewTexts texts,
                          const Pose& T_upright_world)
     : file_(path),
       texts_(std::move(texts)),
-      scene_(texts_.sequence, texts_.method, T_upright_world, kMostPoints) {
-  if (has_page_view()) return;
-  throw UsageError(
-      "this program was built without the 3-D view (that needs esbuild and three.js); leave --html "
-      "out.");
-}
+      scene_(texts_.sequence, texts_.method, T_upright_world, kMostPoints) {}
 
 void MapPageFile::add(const CleanedScan& scan) {
-  scene_.add_scan(scan.scan.name, scan.scan.T_world_sensor.translation());
-  for (std::size_t i = 0; i < scan.mask.size(); ++i) {
-    if (scan.mask[i] <= 1) scene_.add_point(scan.rows.world[i], scan.mask[i] != 0);
-  }
+  scene_.add(scan.scan, scan.mask, scan.confidence);
 }
 
 void MapPageFile::finish() {

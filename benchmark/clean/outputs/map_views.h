@@ -40,13 +40,12 @@ class MapPictureFile : public CleanOutput {
   std::vector<Eigen::Vector3d> path_;  ///< Of the sensor, in the upright world.
 };
 
-/// The cleaned map as a page with the 3-D view. Memory is bounded by the points that it shows.
+/// The cleaned map as a page for review. Memory is bounded by the points that it shows.
 class MapPageFile : public CleanOutput {
  public:
   /// Points that a page shows at most.
   static constexpr std::size_t kMostPoints = 1'000'000;
 
-  /// @throws UsageError if the program was built without the view
   MapPageFile(const std::filesystem::path& path, ViewTexts texts, const Pose& T_upright_world);
   void add(const CleanedScan& scan) override;
   void finish() override;

@@ -11,6 +11,7 @@
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/result/cell.h"
+#include "benchmark/result/removals/edits.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/result_fields.h"
 #include "benchmark/run/scored_sequence.h"
@@ -168,7 +169,7 @@ std::string score_json(const ScoreRecord& record) {
 }
 
 struct ScoreFlags {
-  std::string sequence, truth_map, predictions, cloud, voxel;
+  std::string sequence, truth_map, truth, predictions, cloud, voxel;
   OutputFlag json;
   std::vector<std::string> protocols, settings;
   SequenceFlags reading;
@@ -194,20 +195,47 @@ void warn_of_labels(const LabelIds& found, const std::string& folder) {
                 ". If some are to be removed, write 251 for those and 9 for the others.");
 }
 
+/// Whether `--predictions` names a file of edits.
+bool is_edits(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".json" && is_file(path);
+}
+
+/// The corrected masks of a file of edits.
+MaskStore edited_masks(const std::string& file, const ScanSource& scans, Progress& progress) {
+  const Edits edits = read_edits(file);
+  progress.begin("applying " + file, scans.size());
+  EditedMasks edited = apply_edits(edits, scans, file, false, [&progress] {
+    progress.advance();
+    if (interrupt_flag()) throw Cancelled();
+  });
+  progress.end();
+  return std::move(edited.masks);
+}
+
+/// Makes a reviewed answer the labels of `sequence`: removed points move.
+void set_truth(Sequence& sequence, const std::string& file, Progress& progress) {
+  sequence.labels = labels_of_masks(edited_masks(file, *sequence.scans, progress));
+  sequence.label_rule = {
+      "reviewed", {kRemovedLabel}, {}, {{kKeptLabel, "kept"}, {kRemovedLabel, "removed"}}};
+}
+
 void score_predictions(ScoredSequence& scored, const std::string& folder, Progress& progress,
                        ScoreRecord& record) {
   const ScanSource& scans = *scored.sequence().scans;
-  progress.begin("reading predictions", scans.size());
   const std::atomic<bool>& cancelled = interrupt_flag();
-  const auto after_scan = [&] {
-    progress.advance();
-    if (cancelled) throw Cancelled();
-  };
-  const Predictions read =
-      read_predictions(folder, scans, scored.sequence().label_rule, after_scan);
-  progress.end();
+  Predictions read;
+  if (is_edits(folder)) {
+    read.masks = edited_masks(folder, scans, progress);
+  } else {
+    progress.begin("reading predictions", scans.size());
+    read = read_predictions(folder, scans, scored.sequence().label_rule, [&] {
+      progress.advance();
+      if (cancelled) throw Cancelled();
+    });
+    progress.end();
+  }
   if (!read.note.empty()) progress.say(folder + ": " + read.note);
-  if (read.masks.removed_count() == 0) warn_of_labels(read.found.ids, folder);
+  if (read.masks.removed_count() == 0 && !is_edits(folder)) warn_of_labels(read.found.ids, folder);
   SequenceScores scores = scored.score(read.masks, &cancelled);
   const std::vector<ProtocolRecord> protocols = protocol_records(scored);
   for (std::size_t i = 0; i < protocols.size(); ++i) {
@@ -281,6 +309,11 @@ void check_flags(const ScoreFlags& flags) {
         "--predictions DIR is missing: the folder with a label file for each scan (or a map with "
         "--cloud FILE).");
   }
+  if (!flags.truth.empty() && flags.sequence.empty()) {
+    throw UsageError(
+        "--truth FILE needs the sequence that was reviewed: `raymoval score PATH --truth "
+        "FILE`.");
+  }
   if (!flags.predictions.empty() && !flags.cloud.empty()) {
     throw UsageError("--predictions and --cloud exclude each other; score them one by one.");
   }
@@ -312,7 +345,9 @@ void check_json_is_no_input(const ScoreFlags& flags, const std::string& predicti
   std::vector<std::filesystem::path> inputs = files_of(sequence);
   for (const std::filesystem::path& file : flags.reading.files()) inputs.push_back(file);
   if (!flags.cloud.empty()) inputs.emplace_back(flags.cloud);
-  if (!flags.truth_map.empty()) inputs.emplace_back(flags.truth_map);
+  for (const std::string& file : {flags.truth_map, flags.truth, flags.predictions}) {
+    if (is_file(file)) inputs.emplace_back(file);
+  }
   if (is_folder(predictions)) {
     for (const std::filesystem::path& file : entries_of(predictions)) inputs.push_back(file);
   }
@@ -331,8 +366,11 @@ ExitCode score(const ScoreFlags& flags) {
           : open_truth_map(flags.truth_map, options);
   report_opening(sequence, progress);
   const std::string predictions =
-      flags.predictions.empty() ? "" : prediction_folder(flags.predictions, sequence.name).string();
+      flags.predictions.empty() || is_edits(flags.predictions)
+          ? flags.predictions
+          : prediction_folder(flags.predictions, sequence.name).string();
   check_json_is_no_input(flags, predictions, sequence);
+  if (!flags.truth.empty()) set_truth(sequence, flags.truth, progress);
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
@@ -362,10 +400,16 @@ Command add_score_command(CommandParser& program) {
               "A labelled map in place of a sequence, for --cloud: the intensity of a point is its "
               "label, 0 or 1 (1 moves), or SemanticKITTI's");
   options.add(
+      "--truth", "FILE", flags->truth,
+      "The edits.json of a reviewed map (`raymoval clean --html`) in place of labels: removed "
+      "points move, others are static");
+  options.add(
       "--predictions", "DIR", flags->predictions,
       "A folder of NNNNNN.label files, in which 251 to 259 mean removed and other labels kept, or "
       "of "
-      ".npy masks (see the docs for learning ids); or the folder above sequences/NN/predictions");
+      ".npy masks (see the docs for learning ids); or the folder above sequences/NN/predictions; "
+      "or "
+      "the edits.json of a reviewed map");
   options.add("--cloud", "FILE", flags->cloud,
               "A cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
   options.add(
