@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "core/scan/local_frame.h"
 #include "core/scan/reach.h"
 #include "datasets/simulation/scene/library.h"
 #include "tests/datasets/inspect_data.h"
@@ -340,6 +341,19 @@ TEST_CASE("what the sensor is taken for is told, also where it is estimated", "[
   check_silent(report);
   CHECK_THAT(report.sensor,
              Catch::StartsWith("estimated: 16 beams, ") && Catch::Contains("from 3 scans with "));
+}
+
+TEST_CASE("points in a turned frame are of the same sensor, about another axis",
+          "[inspect][slow]") {
+  EditedSequence drive(suburb("vlp16", 12));
+  Eigen::Matrix3d z_to_y;
+  z_to_y << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  for (Scan& scan : drive.scans) turn_sensor_frame(z_to_y, scan);
+  drive.model = sensor_model_named("vlp16");
+  const InspectionReport report = drive.inspected();
+  check_silent(report);
+  CHECK_THAT(report.sensor,
+             Catch::StartsWith("vlp16; the scans show 16 beams, ") && Catch::EndsWith("axis: y"));
 }
 
 TEST_CASE("a cut at a range is named", "[inspect]") {

@@ -34,11 +34,9 @@ class TurnedScans : public ScanSource {
   Eigen::Matrix3d turn_;
 };
 
-/// @param sensor empty for the street's own, or "estimated"
-Sequence street(const std::string& sensor = "") {
+Sequence street() {
   SequenceOptions options;
   options.frames = FrameRange{0, 27, 3};
-  if (!sensor.empty()) options.sensor = sensor;
   return open_sequence("street", options);
 }
 
@@ -71,15 +69,13 @@ std::size_t differences(const MaskStore& a, const MaskStore& b) {
 
 TEST_CASE("an exchange of the axes of points changes no verdict", "[frames]") {
   const Sequence sequence = street();
-  for (const double side : {1.0, -1.0}) {
-    Eigen::Matrix3d turn;  // z to the side along y, as in a camera's frame.
-    turn << 1, 0, 0, 0, 0, -side, 0, side, 0;
-    for (const char* method : {"raymoval_plus:online-lag", "raymoval"}) {
-      INFO(method << ", side " << side);
-      const MaskStore here = masks_of(method, sequence);
-      CHECK(here.removed_count() > 100);
-      CHECK(differences(here, masks_in_frame(method, sequence, turn)) == 0);
-    }
+  Eigen::Matrix3d turn;  // z becomes -y, which is up in a camera's frame.
+  turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  for (const char* method : {"raymoval_plus:online-lag", "raymoval"}) {
+    INFO(method);
+    const MaskStore here = masks_of(method, sequence);
+    CHECK(here.removed_count() > 100);
+    CHECK(differences(here, masks_in_frame(method, sequence, turn)) == 0);
   }
 }
 
@@ -87,9 +83,9 @@ TEST_CASE("any frame of the points gives nearly the same verdicts", "[frames][sl
   const Sequence sequence = street();
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0.0, 1.0);
-  for (const char* method : {"raymoval_plus:offline", "raymoval_plus:online-lag", "removert"}) {
+  for (const char* method : {"raymoval_plus:offline", "raymoval_plus:online-lag"}) {
     const MaskStore here = masks_of(method, sequence);
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < 2; ++round) {
       const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
       const Eigen::Quaterniond turn = Eigen::Quaterniond(w, x, y, z).normalized();
       INFO(method << ", turned by " << turn.coeffs().transpose());
