@@ -21,9 +21,11 @@
 namespace raymoval::odometry {
 namespace {
 
-constexpr double kLeastFit = 0.12;  // Of a scan that overlaps with the scans before it.
-constexpr double kLongGap = 1.0;    // seconds
-constexpr double kAtRest = 0.05;    // metres
+/// Of a scan that overlaps with the scans before it (see `Registered`).
+constexpr double kLeastMatched = 0.15, kLeastOverlap = 0.4;
+constexpr double kMostUncertain = 0.4;  // Of the scans of an estimate.
+constexpr double kLongGap = 1.0;        // seconds
+constexpr double kAtRest = 0.05;        // metres
 constexpr double kTurnAtRest = 0.5 * kDegree;
 constexpr MotionSigma kStepSigma{0.005, 0.0005};  // Of odometry from scan to scan.
 constexpr MotionSigma kFreeSigma{0.3, 0.02};      // The same where it is not determined.
@@ -55,22 +57,30 @@ struct Steps {
 };
 
 bool is_lost(const Registered& scan) {
-  return scan.fit() < kLeastFit;
+  return scan.matched < kLeastMatched || scan.overlap < kLeastOverlap;
+}
+
+bool is_uncertain(const Registered& scan) {
+  return !scan.determined;
+}
+
+std::string percent_text(double share) {
+  return fixed_text(100.0 * share, 0) + " %";
 }
 
 [[noreturn]] void throw_lost(const Steps& steps) {
   const std::size_t now = steps.scans.size() - 1;
   const double apart = steps.times[now] - steps.times[now - 1];
+  const std::string gap = apart < kLongGap ? ""
+                                           : " It was taken " + fixed_text(apart, 1) +
+                                                 " s after scan " + steps.names[now - 1] + ".";
   throw DataError(fmt::format(
-      "scan {}: does not overlap enough with the scans before it to estimate its pose: {} % of its "
-      "points lie on their surfaces, expected at least {} %.{} Estimate the scans before and after "
-      "it by themselves (--frames), or take the poses of a program that also uses an IMU: --poses "
-      "FILE.",
-      steps.names[now], fixed_text(100.0 * steps.scans[now].fit(), 0),
-      fixed_text(100.0 * kLeastFit, 0),
-      apart >= kLongGap
-          ? " It was taken " + fixed_text(apart, 1) + " s after scan " + steps.names[now - 1] + "."
-          : ""));
+      "scan {}: does not overlap enough with the scans before it to estimate its pose: {} of its "
+      "points are near their surfaces (expected at least {}), and {} of these are on them (at "
+      "least {}).{} Estimate the scans before and after it by themselves (--frames), or take the "
+      "poses of a program that also uses an IMU: --poses FILE.",
+      steps.names[now], percent_text(steps.scans[now].matched), percent_text(kLeastMatched),
+      percent_text(steps.scans[now].overlap), percent_text(kLeastOverlap), gap));
 }
 
 /// Runs odometry over all scans. Scans are read in parallel, some at a time.
@@ -109,7 +119,7 @@ std::vector<GraphEdge> step_edges(const Steps& steps, const std::vector<Pose>* g
     const Registered& scan = steps.scans[i];
     GraphEdge edge{i - 1, i, steps.scans[i - 1].T_map_sensor.inverse() * scan.T_map_sensor,
                    scan.determined ? kStepSigma : kFreeSigma};
-    if (given != nullptr && is_lost(scan)) {
+    if (given != nullptr && (is_lost(scan) || is_uncertain(scan))) {
       edge.T_from_to = (*given)[i - 1].inverse() * (*given)[i];
       edge.sigma = kFreeSigma;
     }
@@ -135,15 +145,32 @@ std::string ranges_text(const Steps& steps, IsOne&& is_one) {
   return join(ranges) + (more > 0 ? " and " + counted_text(more, "other range") : "");
 }
 
+std::size_t count_uncertain(const Steps& steps) {
+  return static_cast<std::size_t>(
+      std::count_if(steps.scans.begin(), steps.scans.end(), is_uncertain));
+}
+
+/// "The poses of 5 scans are uncertain: ..."; there is at least one.
+std::string uncertain_text(const Steps& steps) {
+  return fmt::format(
+      "The poses of {} are uncertain: the surfaces do not determine the motion in every direction, "
+      "as in a corridor, on open land or in a narrow view of the ground (scans {}).",
+      counted_text(count_uncertain(steps), "scan"), ranges_text(steps, is_uncertain));
+}
+
+/// Refuses poses that would mostly be guesses.
+void check_certain(const Steps& steps) {
+  const auto share =
+      static_cast<double>(count_uncertain(steps)) / static_cast<double>(steps.scans.size());
+  if (share <= kMostUncertain) return;
+  throw DataError(uncertain_text(steps) +
+                  " These are too many to estimate poses. Take the poses of a program that also "
+                  "uses an IMU or odometry: --poses FILE.");
+}
+
 void note_uncertain(const Steps& steps, std::vector<std::string>& notes) {
-  const auto is_free = [](const Registered& scan) { return !scan.determined; };
-  const auto free = std::count_if(steps.scans.begin(), steps.scans.end(), is_free);
-  if (free > 0) {
-    notes.push_back(fmt::format(
-        "The poses of {} are uncertain: the surfaces do not determine the motion in every "
-        "direction, as in a corridor, on open land or in a narrow view of the ground (scans {}). "
-        "There the motion before continues.",
-        counted_text(static_cast<std::size_t>(free), "scan"), ranges_text(steps, is_free)));
+  if (count_uncertain(steps) > 0) {
+    notes.push_back(uncertain_text(steps) + " There the motion before continues.");
   }
   for (std::size_t i = 1; i < steps.times.size(); ++i) {
     const double gap = steps.times[i] - steps.times[i - 1];
@@ -217,6 +244,7 @@ bool is_worse(const registration::PoseFit& fit, const registration::PoseFit& oth
   constexpr double kFar = 0.1, kTolerance = 0.005;  // metres
   if (other.pairs.empty()) return false;
   if (fit.pairs.empty()) return true;
+  if (fits(fit) && !fits(other)) return false;
   const double worst = worst_pair(fit).distance_m, other_worst = worst_pair(other).distance_m;
   if (moved.most <= kFar) return fit.distance_m >= other.distance_m && worst >= other_worst;
   return fit.distance_m > other.distance_m + kTolerance ||
@@ -230,6 +258,7 @@ PoseEstimate estimate_poses(MovingScans input) {
   if (input.scans.size() == 0) return estimate;
   if (!(input.median_range > 0.0)) input.median_range = median_range_of(input.scans);
   const Steps steps = odometry_of(input, nullptr);
+  check_certain(steps);
   estimate.poses = with_loops(input, steps, step_edges(steps, nullptr), steps.poses(), estimate);
   if (is_at_rest(estimate.poses)) {
     estimate.notes.push_back(

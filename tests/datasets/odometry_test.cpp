@@ -220,11 +220,22 @@ class Corridor : public ScanSource {
 
 }  // namespace
 
-TEST_CASE("a corridor without features is reported as uncertain", "[odometry]") {
-  const std::string notes = all_notes(estimate_poses({Corridor()}));
-  CAPTURE(notes);
-  CHECK(notes.find("The poses of 5 scans are uncertain") != std::string::npos);
-  CHECK(notes.find("scans 1 to 5") != std::string::npos);
+TEST_CASE("a corridor without features is refused, and given poses serve there", "[odometry]") {
+  const Corridor corridor;
+  try {
+    (void)estimate_poses({corridor});
+    FAIL("no error");
+  } catch (const DataError& error) {
+    const std::string message = error.what();
+    CAPTURE(message);
+    CHECK(message.find("The poses of 5 scans are uncertain") != std::string::npos);
+    CHECK(message.find("scans 1 to 5") != std::string::npos);
+    CHECK(message.find("--poses FILE") != std::string::npos);
+  }
+  std::vector<Pose> given;
+  for (std::size_t i = 0; i < corridor.size(); ++i) given.push_back(corridor.pose(i));
+  const PoseEstimate refined = refine_poses({corridor}, given);
+  CHECK(error_of(refined.poses, corridor) < 0.1);
 }
 
 TEST_CASE("points are moved to the time of the scan", "[odometry]") {
