@@ -20,10 +20,10 @@ constexpr double kLeastMotion = 0.1;   // Smaller deviations do not count (KISS-
 constexpr double kRangeOfTurns = 3.0;  // Median ranges at which a turn is measured.
 constexpr double kMostGap = 5.0;       // Motions that a prediction extends over a gap in time.
 constexpr double kMapRadius = 100.0, kForgetEvery = 10.0;  // metres
-constexpr double kUsualFit = 0.85;  // A smaller share of the usual fit is registered again.
+constexpr double kUsualFit = 0.92;  // A smaller share of the usual fit is registered again.
 constexpr double kUsualMemory = 0.9;
 constexpr double kTurnStep = 1.5 * kDegree;
-constexpr double kSecondReach = 0.6;  // metres
+constexpr double kSecondReach = 1.0;  // metres
 constexpr std::size_t kBestTurns = 6;
 constexpr std::size_t kFewPoints = 500, kFewestRough = 50;
 constexpr double kSearchStep = 0.25;  // metres
