@@ -3,7 +3,7 @@
 
 #include <pybind11/stl.h>
 
-#include <array>
+#include <tuple>
 
 #include "core/text.h"
 #include "python/module/bindings.h"
@@ -36,7 +36,8 @@ void bind_sensors(py::module_& module) {
       .def_property_readonly(
           "spin_axis",
           [](const SensorModel& sensor) {
-            return std::array{sensor.spin_axis.x(), sensor.spin_axis.y(), sensor.spin_axis.z()};
+            return std::make_tuple(sensor.spin_axis.x(), sensor.spin_axis.y(),
+                                   sensor.spin_axis.z());
           },
           "Unit vector of the frame of the points; +z if none was found.")
       .def_readonly("basis", &SensorModel::basis,
