@@ -3,28 +3,11 @@
 what it should. Usage: report_test.py PATH/TO/raymoval. Exit code 77: no Chromium."""
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
 import chromium
-
-checks = failures = 0
-
-
-def check(name, holds, more=""):
-    global checks, failures
-    checks += 1
-    if not holds:
-        failures += 1
-        print(f"FAILED: {name} {more}", flush=True)
-
-
-def program(path, *arguments, code=0):
-    done = subprocess.run([path, *arguments], capture_output=True, text=True)
-    check(" ".join(arguments[:2]) + f" ends with {code}", done.returncode == code,
-          f"(got {done.returncode}: {done.stderr[-500:]})")
-    return done
+from checks import check, finish, program
 
 
 def colours(browser, left=0.0, right=1.0):
@@ -360,8 +343,7 @@ def main():
             check("no view where none is wanted", browser.run("!document.getElementById('viewer')"))
             check("nothing was logged, thrown or asked of the network", not browser.problems,
                   browser.problems)
-    print(f"report_test.py: {checks - failures} of {checks} checks hold")
-    return 1 if failures else 0
+    return finish("report_test.py")
 
 
 if __name__ == "__main__":

@@ -6,29 +6,12 @@ import json
 import math
 import os
 import struct
-import subprocess
 import sys
 import tempfile
 import time
 
 import chromium
-
-checks = failures = 0
-
-
-def check(name, holds, more=""):
-    global checks, failures
-    checks += 1
-    if not holds:
-        failures += 1
-        print(f"FAILED: {name} {more}", flush=True)
-
-
-def program(path, *arguments, code=0):
-    done = subprocess.run([path, *arguments], capture_output=True, text=True)
-    check(" ".join(arguments[:2]) + f" ends with {code}", done.returncode == code,
-          f"(got {done.returncode}: {done.stderr[-500:]})")
-    return done.stdout + done.stderr
+from checks import check, finish, program
 
 
 def removed_by(folder, names):
@@ -265,8 +248,7 @@ def main():
             check("without WebGL there is a picture", browser.run(
                 "(() => { const {data} = raymovalReview.stage.pixels(); let drawn = 0;"
                 " for (let i = 0; i < data.length; i += 4) drawn += data[i] < 250; return drawn > 1000; })()"))
-    print(f"review_test.py: {checks - failures} of {checks} checks hold")
-    return 1 if failures else 0
+    return finish("review_test.py")
 
 
 if __name__ == "__main__":
