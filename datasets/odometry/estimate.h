@@ -13,7 +13,8 @@ namespace raymoval::odometry {
 struct PoseEstimate {
   std::vector<Pose> poses;         ///< T_world_sensor of each scan.
   std::vector<std::string> notes;  ///< Whole sentences.
-  std::size_t loops = 0;           ///< Returns to a place that were used.
+  std::vector<std::string> doubts;  ///< Reasons why they may be wrong, each as a clause.
+  std::size_t loops = 0;            ///< Returns to a place that were used.
 };
 
 /// Estimates the poses of scans from the scans alone: odometry (see `Odometry`), then a pose graph

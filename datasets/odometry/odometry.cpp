@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kFirstReach = 2.0;    // Threshold before a motion is known, metres.
+constexpr double kKnownMotion = 0.17;  // Deviation from a known first motion, metres.
 constexpr double kLeastMotion = 0.1;   // Smaller deviations do not count (KISS-ICP), metres.
 constexpr double kRangeOfTurns = 3.0;  // Median ranges at which a turn is measured.
 constexpr double kMostGap = 5.0;       // Motions that a prediction extends over a gap in time.
@@ -31,11 +32,16 @@ constexpr int kSearchSteps = 24;      // in each direction
 
 }  // namespace
 
-Odometry::Odometry(double median_range)
-    : median_range_(median_range), map_(cell_for(median_range)) {}
+Odometry::Odometry(double median_range, const std::optional<Pose>& first_motion)
+    : median_range_(median_range), first_motion_(first_motion), map_(cell_for(median_range)) {
+  if (!first_motion_) return;
+  squares_ = kKnownMotion * kKnownMotion;
+  deviations_ = 1;
+}
 
 Pose Odometry::predicted(double time_s) const {
-  if (poses_.size() < 2) return poses_.empty() ? Pose::Identity() : poses_.back();
+  if (poses_.empty()) return Pose::Identity();
+  if (poses_.size() < 2) return poses_[0] * first_motion_.value_or(Pose::Identity());
   const double before = times_[1] - times_[0], now = time_s - times_[1];
   const double part = before > 0.0 && now > 0.0 ? std::min(now / before, kMostGap) : 1.0;
   return poses_[1] * part_of(poses_[0].inverse() * poses_[1], part);
@@ -144,7 +150,9 @@ Registered Odometry::add(const Scan& scan, std::vector<double> point_times,
   const ThinnedScan thin = thinned(scan, motion, median_range_);
   Registered result{.overlap = 1.0, .matched = 1.0, .determined = true};
   if (!poses_.empty()) {
-    if (poses_.size() == 1) guess = searched(thin.dense, hint ? poses_[0] * *hint : guess);
+    if (poses_.size() == 1 && !first_motion_) {
+      guess = searched(thin.dense, hint ? poses_[0] * *hint : guess);
+    }
     result = registered(thin, guess, hint);
     learn(guess.inverse() * result.T_map_sensor);
     usual_fit_ = usual_fit_ == 0.0

@@ -246,7 +246,7 @@ void draw_outline(Canvas& canvas, const ObliqueCamera& camera, const WorldWindow
 
 std::string percent_text(std::uint64_t part, std::uint64_t whole) {
   if (whole == 0) return "none";
-  return fixed_text(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+  return percent_text(static_cast<double>(part) / static_cast<double>(whole), 2);
 }
 
 Canvas drawn(const KeptCell& cell, std::size_t scans, const Views& views,
