@@ -267,8 +267,8 @@ std::string doubt_text(const std::vector<std::string>& names, std::size_t begin,
   return fmt::format(
       "scans {} to {} also fit a motion of {} from scan to scan, with an overlap of {}; with the "
       "{} of the poses it is {}",
-      names[begin], names[std::min(begin + kSearchedScans, names.size()) - 1],
-      metres(search.other), percent_text(search.other.overlap, 1), metres(search.given),
+      names[begin], names[std::min(begin + kSearchedScans, names.size()) - 1], metres(search.other),
+      percent_text(search.other.overlap, 1), metres(search.given),
       percent_text(search.given.overlap, 1));
 }
 

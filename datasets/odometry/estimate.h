@@ -11,8 +11,8 @@ namespace raymoval::odometry {
 
 /// Estimated poses, and what the user should know about them.
 struct PoseEstimate {
-  std::vector<Pose> poses;         ///< T_world_sensor of each scan.
-  std::vector<std::string> notes;  ///< Whole sentences.
+  std::vector<Pose> poses;          ///< T_world_sensor of each scan.
+  std::vector<std::string> notes;   ///< Whole sentences.
   std::vector<std::string> doubts;  ///< Reasons why they may be wrong, each as a clause.
   std::size_t loops = 0;            ///< Returns to a place that were used.
 };

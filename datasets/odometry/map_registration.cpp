@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kCellShare = 0.05, kLeastCell = 0.2, kMostCell = 0.5;  // of the median range; m
+constexpr double kCellShare = 0.08, kLeastCell = 0.2, kMostCell = 0.5;  // of the median range; m
 constexpr double kNearestShare = 0.25;                                  // of the median range
 constexpr double kFarthest = 100.0;                                     // metres
 constexpr double kDenseSpacing = 0.4, kSparseSpacing = 1.5;             // cells
@@ -79,7 +79,8 @@ class Deskewing {
 bool is_determined(const registration::Matches& matches) {
   registration::Matches planes;
   for (const registration::Match& match : matches) {
-    if (match.weight == 1.0) planes.push_back(match);
+    if (match.weight > PlaneMap::kRoughWeight)
+      planes.push_back({match.at, match.normal, match.distance});
   }
   return !planes.empty() && registration::plane_step(planes, kOnMap, kLeastShare).determined == 6;
 }

@@ -18,13 +18,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.75;   // metres between the motions that are tried
-constexpr double kReach = 0.5;   // metres
-constexpr double kFastest = 45.0;  // metres a second
-constexpr double kFarthest = 20.0;  // metres from scan to scan
-constexpr double kMostGap = 5.0;  // periods that a prediction extends over a gap in time
+constexpr double kStep = 0.75;        // metres between the motions that are tried
+constexpr double kReach = 0.5;        // metres
+constexpr double kFastest = 45.0;     // metres a second
+constexpr double kFarthest = 20.0;    // metres from scan to scan
+constexpr double kMostGap = 5.0;      // periods that a prediction extends over a gap in time
 constexpr double kUsualPeriod = 0.1;  // seconds, where scans have no times
-constexpr double kAlike = 0.3;  // metres
+constexpr double kAlike = 0.3;        // metres
 constexpr std::size_t kFewPoints = 2000;
 constexpr double kLeastMatched = 0.6;  // Of the matched share of the best.
 /// Scans after which motions with less overlap than the best are dropped, and how much less.
@@ -178,7 +178,8 @@ MotionSearch search_motion(const MovingScans& input, std::size_t begin,
   Track given(scans, cell_m, motion);
   std::vector<Track> tracks;
   for (int k = -steps; k <= steps; ++k) {
-    if (k != 0) tracks.emplace_back(scans, cell_m, Eigen::Translation3d(kStep * k * along) * motion);
+    if (k != 0)
+      tracks.emplace_back(scans, cell_m, Eigen::Translation3d(kStep * k * along) * motion);
   }
   for (const auto& [end, margin] : kRounds) {
     given.follow(end, &poses);
