@@ -37,13 +37,12 @@ constexpr std::size_t kScansAtOnce = 8;
 constexpr double kEqual = 0.003, kClear = 0.01;
 constexpr std::size_t kFewestSearched = 4, kScansPerSearch = 150, kMostSearches = 6;
 
-double median_range_of(const ScanSource& scans) {
-  std::vector<float> ranges;
-  for (std::size_t k = 0; k < scans.size() && ranges.empty(); ++k) {
-    const std::size_t i = (scans.size() / 2 + k) % scans.size();
-    for (const Eigen::Vector3f& point : scans.load(i).points) ranges.push_back(point.norm());
+/// The scale of the middle scan, or of the next that has a point.
+ScanScale scale_of(const ScanSource& scans) {
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const Scan scan = scans.load((scans.size() / 2 + k) % scans.size());
+    if (scan.size() > 0) return odometry::scale_of(scan);
   }
-  if (!ranges.empty()) return median_in_place(ranges);
   throw DataError("no scan has a point, so poses cannot be estimated. Take other scans.");
 }
 
@@ -93,7 +92,7 @@ struct Course {
 /// Runs odometry over scans. They are read in parallel, some at a time.
 /// @param given null, or poses whose motions are a second guess
 Steps odometry_of(const MovingScans& input, const Course& course, const std::vector<Pose>* given) {
-  Odometry odometry(input.median_range, course.first_motion);
+  Odometry odometry(input.scale, course.first_motion);
   Steps steps;
   const std::size_t count = course.scans;
   if (input.progress != nullptr) input.progress->begin("estimating poses", count);
@@ -272,7 +271,8 @@ std::string doubt_text(const std::vector<std::string>& names, std::size_t begin,
       percent_text(search.given.overlap, 1));
 }
 
-/// The motion from the first scan to the second, if it is another one than odometry finds.
+/// The motion from the first scan to the second under which the first scans fit best; empty if
+/// there are too few scans to tell.
 std::optional<Pose> better_start(const MovingScans& input, std::vector<std::string>& doubts) {
   const std::size_t count = std::min(kSearchedScans, input.scans.size());
   if (count < kFewestSearched) return std::nullopt;
@@ -280,10 +280,13 @@ std::optional<Pose> better_start(const MovingScans& input, std::vector<std::stri
   quiet.progress = nullptr;
   const Steps steps = odometry_of(quiet, {count, std::nullopt, true}, nullptr);
   MotionSearch search = search_motion(input, 0, steps.poses());
-  const bool is_better = search.advantage() > 0.0;
-  if (is_better) std::swap(search.given, search.other);
+  TriedMotion best = search.alike;
+  if (search.advantage() > 0.0) {
+    std::swap(search.given, search.other);
+    best = search.given;
+  }
   if (search.advantage() > -kEqual) doubts.push_back(doubt_text(steps.names, 0, search));
-  return is_better ? std::optional(search.given.first) : std::nullopt;
+  return best.first;
 }
 
 /// Adds doubts where another motion fits clearly better than that of `poses`.
@@ -304,7 +307,7 @@ void search_along(const MovingScans& input, const Steps& steps, const std::vecto
 PoseEstimate estimate_poses(MovingScans input) {
   PoseEstimate estimate;
   if (input.scans.size() == 0) return estimate;
-  if (!(input.median_range > 0.0)) input.median_range = median_range_of(input.scans);
+  if (!(input.scale.cell > 0.0)) input.scale = scale_of(input.scans);
   const auto first_motion = better_start(input, estimate.doubts);
   const Steps steps = odometry_of(input, {input.scans.size(), first_motion}, nullptr);
   check_certain(steps);
@@ -326,7 +329,7 @@ PoseEstimate estimate_poses(MovingScans input) {
 PoseEstimate refine_poses(MovingScans input, const std::vector<Pose>& given) {
   PoseEstimate estimate;
   if (input.scans.size() == 0) return estimate;
-  if (!(input.median_range > 0.0)) input.median_range = median_range_of(input.scans);
+  if (!(input.scale.cell > 0.0)) input.scale = scale_of(input.scans);
   const Steps steps = odometry_of(input, {input.scans.size(), std::nullopt, true}, &given);
   std::vector<GraphEdge> edges = step_edges(steps, &given);
   for (std::size_t i = 0; i < given.size(); ++i) {

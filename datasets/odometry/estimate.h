@@ -19,7 +19,7 @@ struct PoseEstimate {
 
 /// Estimates the poses of scans from the scans alone: odometry (see `Odometry`), then a pose graph
 /// with the returns to a place (see `find_loops`). The first scan's frame is the world frame.
-/// @param input `median_range` may be 0: it is taken from the middle scan
+/// @param input `scale` may be 0: it is taken from the middle scan
 /// @throws DataError naming the scan that does not overlap with the scans before it, or the scans
 ///   whose motion is uncertain if they are more than 40 %, and remedies; or if a scan cannot be
 ///   read. Cancelled

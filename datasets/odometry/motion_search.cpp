@@ -18,10 +18,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.75;        // metres between the motions that are tried
-constexpr double kReach = 0.5;        // metres
-constexpr double kFastest = 45.0;     // metres a second
-constexpr double kFarthest = 20.0;    // metres from scan to scan
+constexpr double kStep = 0.75;                    // metres between the motions that are tried
+constexpr double kReach = 0.5, kMostReach = 2.0;  // metres
+constexpr double kFastest = 45.0;                 // metres a second
+constexpr double kFarthest = 20.0;                // metres from scan to scan
 constexpr double kMostGap = 5.0;      // periods that a prediction extends over a gap in time
 constexpr double kUsualPeriod = 0.1;  // seconds, where scans have no times
 constexpr double kAlike = 0.3;        // metres
@@ -34,7 +34,7 @@ constexpr std::pair<std::size_t, double> kRounds[] = {{3, 0.06}, {6, 0.04}, {kSe
 class SearchedScans {
  public:
   SearchedScans(const MovingScans& input, std::size_t begin, std::size_t count)
-      : median_range_(input.median_range) {
+      : scale_(input.scale) {
     for (std::size_t i = begin; i < begin + count; ++i) {
       if (input.cancel != nullptr && input.cancel->load()) throw Cancelled();
       Scan scan = input.scans.load(i);
@@ -43,7 +43,7 @@ class SearchedScans {
         point_times_.push_back(input.point_times(scan));
         scans_.push_back(std::move(scan));
       } else {
-        thin_.push_back(thinned(scan, {}, median_range_));
+        thin_.push_back(thinned(scan, {}, scale_));
       }
     }
   }
@@ -56,12 +56,11 @@ class SearchedScans {
   /// @param motion T_before_after of the sensor from scan `i` to the next
   [[nodiscard]] ThinnedScan thin(std::size_t i, const Pose& motion) const {
     if (!thin_.empty()) return thin_[i];
-    return thinned(scans_[i], {point_times_[i], motion, period(std::min(i, size() - 2))},
-                   median_range_);
+    return thinned(scans_[i], {point_times_[i], motion, period(std::min(i, size() - 2))}, scale_);
   }
 
  private:
-  double median_range_;
+  ScanScale scale_;
   std::vector<Scan> scans_;
   std::vector<std::vector<double>> point_times_;
   std::vector<ThinnedScan> thin_;
@@ -81,10 +80,11 @@ class Track {
       const double part = next_ == 1 ? 1.0 : scans_->period(next_ - 1) / scans_->period(next_ - 2);
       const Pose predicted = poses == nullptr ? part_of(motion_, std::min(part, kMostGap))
                                               : (*poses)[next_ - 1].inverse() * (*poses)[next_];
+      const double reach = std::min(3.0 * usual_deviation(scans_->period(next_ - 1)), kMostReach);
       const ThinnedScan thin = scans_->thin(next_, predicted);
       const Registered found =
           register_to_map(map_, few_of(thin.sparse, kFewPoints), pose_ * predicted,
-                          poses == nullptr ? kReach : kLeastReach);
+                          poses == nullptr ? reach : kLeastReach);
       motion_ = pose_.inverse() * found.T_map_sensor;
       pose_ = found.T_map_sensor;
       if (next_ == 1) tried_.first = motion_;
@@ -137,22 +137,23 @@ bool fits_better(const TriedMotion& a, const TriedMotion& b) {
   return a.overlap * a.matched > b.overlap * b.matched;
 }
 
-/// The motion with the largest overlap of those that are not like `given`. Of motions that are
-/// alike, the one that fits best counts: their overlap depends on the first scan's error.
-TriedMotion best_other(std::vector<TriedMotion> tried, const TriedMotion& given) {
+/// The result of a search. Of motions that are alike, the one that fits best counts: their overlap
+/// depends on the first scan's error. Of others, the one with the largest overlap does.
+MotionSearch result_of(std::vector<TriedMotion> tried, const TriedMotion& given) {
+  MotionSearch result{given, given, {}};
   double matched = given.matched;
   for (const TriedMotion& one : tried) matched = std::max(matched, one.matched);
   std::stable_sort(tried.begin(), tried.end(), fits_better);
   std::vector<TriedMotion> distinct = {given};
-  TriedMotion best;
   for (const TriedMotion& one : tried) {
     const bool is_known = std::any_of(distinct.begin(), distinct.end(),
                                       [&](const TriedMotion& kept) { return one.is_like(kept); });
+    if (one.is_like(given) && fits_better(one, result.alike)) result.alike = one;
     if (is_known || one.matched < kLeastMatched * matched) continue;
     distinct.push_back(one);
-    if (one.overlap > best.overlap) best = one;
+    if (one.overlap > result.other.overlap) result.other = one;
   }
-  return best;
+  return result;
 }
 
 void drop_bad(std::vector<Track>& tracks, double given, double margin) {
@@ -170,10 +171,10 @@ bool TriedMotion::is_like(const TriedMotion& other) const {
 MotionSearch search_motion(const MovingScans& input, std::size_t begin,
                            const std::vector<Pose>& poses) {
   const SearchedScans scans(input, begin, std::min(kSearchedScans, poses.size()));
-  const double cell_m = cell_for(input.median_range);
+  const double cell_m = input.scale.cell;
   const Pose motion = poses[0].inverse() * poses[1];
   const Vector3d along = weakest_direction(scans, cell_m, motion);
-  const double most = std::min({kFastest * scans.period(0), kFarthest, 2.0 * input.median_range});
+  const double most = std::min({kFastest * scans.period(0), kFarthest, 2.0 * input.scale.range});
   const int steps = static_cast<int>(std::ceil(most / kStep));
   Track given(scans, cell_m, motion);
   std::vector<Track> tracks;
@@ -188,7 +189,7 @@ MotionSearch search_motion(const MovingScans& input, std::size_t begin,
   }
   std::vector<TriedMotion> tried;
   for (const Track& track : tracks) tried.push_back(track.tried());
-  return {given.tried(), best_other(std::move(tried), given.tried())};
+  return result_of(std::move(tried), given.tried());
 }
 
 }  // namespace raymoval::odometry

@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kFirstReach = 2.0;    // Threshold before a motion is known, metres.
-constexpr double kKnownMotion = 0.17;  // Deviation from a known first motion, metres.
 constexpr double kLeastMotion = 0.1;   // Smaller deviations do not count (KISS-ICP), metres.
 constexpr double kRangeOfTurns = 3.0;  // Median ranges at which a turn is measured.
 constexpr double kMostGap = 5.0;       // Motions that a prediction extends over a gap in time.
@@ -32,12 +31,8 @@ constexpr int kSearchSteps = 24;      // in each direction
 
 }  // namespace
 
-Odometry::Odometry(double median_range, const std::optional<Pose>& first_motion)
-    : median_range_(median_range), first_motion_(first_motion), map_(cell_for(median_range)) {
-  if (!first_motion_) return;
-  squares_ = kKnownMotion * kKnownMotion;
-  deviations_ = 1;
-}
+Odometry::Odometry(const ScanScale& scale, const std::optional<Pose>& first_motion)
+    : scale_(scale), first_motion_(first_motion), map_(scale.cell) {}
 
 Pose Odometry::predicted(double time_s) const {
   if (poses_.empty()) return Pose::Identity();
@@ -56,7 +51,7 @@ double Odometry::threshold() const {
 void Odometry::learn(const Pose& deviation) {
   const double angle = Eigen::AngleAxisd(deviation.linear()).angle();
   const double size =
-      deviation.translation().norm() + 2.0 * kRangeOfTurns * median_range_ * std::sin(0.5 * angle);
+      deviation.translation().norm() + 2.0 * kRangeOfTurns * scale_.range * std::sin(0.5 * angle);
   if (size < kLeastMotion) return;
   squares_ += size * size;
   ++deviations_;
@@ -147,11 +142,16 @@ Registered Odometry::add(const Scan& scan, std::vector<double> point_times,
     motion.motion = poses_.back().inverse() * guess;
     motion.duration = scan.time_s - times_.back();
   }
-  const ThinnedScan thin = thinned(scan, motion, median_range_);
+  const ThinnedScan thin = thinned(scan, motion, scale_);
   Registered result{.overlap = 1.0, .matched = 1.0, .determined = true};
   if (!poses_.empty()) {
-    if (poses_.size() == 1 && !first_motion_) {
-      guess = searched(thin.dense, hint ? poses_[0] * *hint : guess);
+    if (poses_.size() == 1) {
+      if (first_motion_) {
+        squares_ = std::pow(usual_deviation(motion.duration), 2);
+        deviations_ = 1;
+      } else {
+        guess = searched(thin.dense, hint ? poses_[0] * *hint : guess);
+      }
     }
     result = registered(thin, guess, hint);
     learn(guess.inverse() * result.T_map_sensor);

@@ -17,9 +17,8 @@ namespace raymoval::odometry {
 /// predictions. Unlike the map of KISS-ICP, this one has planes (see `PlaneMap`).
 class Odometry {
  public:
-  /// @param median_range of the points of the scans, metres
   /// @param first_motion from the first scan to the second, if it is known to half a metre
-  explicit Odometry(double median_range, const std::optional<Pose>& first_motion = std::nullopt);
+  explicit Odometry(const ScanScale& scale, const std::optional<Pose>& first_motion = std::nullopt);
 
   /// Registers the next scan to the scans before. The pose is relative to the first scan.
   /// @param point_times of each point, seconds from the time of the scan; empty: no motion within
@@ -41,7 +40,7 @@ class Odometry {
   void learn(const Pose& deviation);
   void extend(const ThinnedScan& thin, const Pose& T_map_sensor, double time_s);
 
-  double median_range_;
+  ScanScale scale_;
   std::optional<Pose> first_motion_;
   PlaneMap map_;
   std::vector<Pose> poses_;    ///< The last two.

@@ -170,7 +170,9 @@ registration::Matches PlaneMap::match(const std::vector<Vector3f>& points, const
       const Vector3d normal = cell->normal.cast<double>();
       const double distance =
           normal.dot(at - centre_of(*cell, levels_[k].cell_m) - cell->mean.cast<double>());
-      if (std::abs(distance) <= reach) matches.push_back({at, normal, distance, cell->weight});
+      const Vector3d ray = (at - T_map_sensor.translation()).normalized();
+      const double weight = std::max<double>(cell->weight, std::abs(normal.dot(ray)));
+      if (std::abs(distance) <= reach) matches.push_back({at, normal, distance, weight});
       break;
     }
   }

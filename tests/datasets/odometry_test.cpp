@@ -243,7 +243,7 @@ TEST_CASE("points are moved to the time of the scan", "[odometry]") {
   // scan is 0.5 m farther ahead in the frame of that time.
   Scan scan;
   scan.points = {{4.0F, 0.0F, 0.0F}, {4.0F, 3.0F, 0.0F}};
-  const ThinnedScan thin = thinned(scan, {{0.0, 0.1}, pose_at(0.5, 0.0, 0.0), 0.1}, 4.0);
+  const ThinnedScan thin = thinned(scan, {{0.0, 0.1}, pose_at(0.5, 0.0, 0.0), 0.1}, {4.0, 0.2});
   REQUIRE(thin.dense.size() == 2);
   CHECK(thin.dense[0].x() == Approx(4.0).margin(0.003));
   CHECK(thin.dense[1].x() == Approx(4.5).margin(0.003));
