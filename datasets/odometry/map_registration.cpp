@@ -14,10 +14,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kCellSpacings = 4.7, kLeastCell = 0.2, kMostCell = 0.5;  // of points; metres
-constexpr double kNearestShare = 0.25;                                    // of the median range
-constexpr double kFarthest = 100.0;                                       // metres
-constexpr double kDenseSpacing = 0.4, kSparseSpacing = 1.5;               // cells
+/// Edge of the smallest cells: of the distance between points, of the median range; metres.
+constexpr double kCellSpacings = 4.7, kMostOfRange = 0.08, kLeastCell = 0.2, kMostCell = 0.5;
+constexpr double kNearestShare = 0.25;                       // of the median range
+constexpr double kFarthest = 100.0;                          // metres
+constexpr double kDenseSpacing = 0.4, kSparseSpacing = 1.5;  // cells
 constexpr std::size_t kMostRegistered = 3000;
 constexpr double kOnMap = 0.1;  // metres
 /// Least share of the weights that determines a direction: a few trees along a road do.
@@ -99,7 +100,8 @@ ScanScale scale_of(const Scan& scan) {
   const double range = median_in_place(ranges);
   const double spacing =
       range * std::sqrt(4.0 * std::numbers::pi / static_cast<double>(scan.size()));
-  return {range, std::clamp(kCellSpacings * spacing, kLeastCell, kMostCell)};
+  const double cell = std::min(kCellSpacings * spacing, kMostOfRange * range);
+  return {range, std::clamp(cell, kLeastCell, kMostCell)};
 }
 
 std::vector<Vector3f> few_of(const std::vector<Vector3f>& points, std::size_t most) {

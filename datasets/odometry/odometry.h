@@ -29,8 +29,9 @@ class Odometry {
 
  private:
   [[nodiscard]] Pose predicted(double time_s) const;
-  [[nodiscard]] Registered registered(const ThinnedScan& thin, const Pose& guess,
-                                      const std::optional<Pose>& hint) const;
+  /// The best result of registration from each guess; the first is the prediction.
+  [[nodiscard]] Registered registered(const ThinnedScan& thin,
+                                      const std::vector<Pose>& guesses) const;
   /// The pose up to 6 m from `guess` in plan at which points without a plane are nearest to others.
   [[nodiscard]] Pose searched(const std::vector<Eigen::Vector3f>& points, const Pose& guess) const;
   /// Registers again, also from turned guesses, and returns the best result.
