@@ -218,7 +218,7 @@ TEST_CASE("a doubt is reported if two motions fit about equally", "[odometry]") 
 TEST_CASE("a gap in time is reported, and the motion continues across it", "[odometry]") {
   FlatWorld world;
   for (int i = 0; i < 8; ++i) {
-    world.scan(room(), pose_at(0.1 * i, 0.0, 0.0), 0.1 * i + (i < 4 ? 0.0 : 5.0));
+    world.scan(room({0.15, 0.15, 0.1}), pose_at(0.1 * i, 0.0, 0.0), 0.1 * i + (i < 4 ? 0.0 : 5.0));
   }
   const PoseEstimate estimate = estimate_poses({world});
   CHECK(error_of(estimate.poses, world) < 0.02);
