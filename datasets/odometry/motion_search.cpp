@@ -18,15 +18,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.75;                    // metres between the motions that are tried
-constexpr double kReach = 0.5, kMostReach = 2.0;  // metres
-constexpr double kFastest = 45.0;                 // metres a second
-constexpr double kFarthest = 20.0;                // metres from scan to scan
-constexpr double kMostGap = 5.0;      // periods that a prediction extends over a gap in time
+constexpr double kTryStep = 0.75;                       // metres between the motions that are tried
+constexpr double kTryReach = 0.5, kMostTryReach = 2.0;  // metres
+constexpr double kFastest = 45.0;                       // metres a second
+constexpr double kFarthestStep = 20.0;                  // metres from scan to scan
+constexpr double kMostPeriods = 5.0;  // periods that a prediction extends over a gap in time
 constexpr double kUsualPeriod = 0.1;  // seconds, where scans have no times
 constexpr double kAlike = 0.3;        // metres
-constexpr std::size_t kFewPoints = 2000;
-constexpr double kLeastMatched = 0.6;  // Of the matched share of the best.
+constexpr std::size_t kFewTried = 2000;
+constexpr double kLeastOfMatched = 0.6;  // Of the matched share of the best.
 /// Scans after which motions with less overlap than the best are dropped, and how much less.
 constexpr std::pair<std::size_t, double> kRounds[] = {{3, 0.06}, {6, 0.04}, {kSearchedScans, 1.0}};
 
@@ -78,12 +78,13 @@ class Track {
   void follow(std::size_t end, const std::vector<Pose>* poses = nullptr) {
     for (end = std::min(end, scans_->size()); next_ < end; ++next_) {
       const double part = next_ == 1 ? 1.0 : scans_->period(next_ - 1) / scans_->period(next_ - 2);
-      const Pose predicted = poses == nullptr ? part_of(motion_, std::min(part, kMostGap))
+      const Pose predicted = poses == nullptr ? part_of(motion_, std::min(part, kMostPeriods))
                                               : (*poses)[next_ - 1].inverse() * (*poses)[next_];
-      const double reach = std::min(3.0 * usual_deviation(scans_->period(next_ - 1)), kMostReach);
+      const double reach =
+          std::min(3.0 * usual_deviation(scans_->period(next_ - 1)), kMostTryReach);
       const ThinnedScan thin = scans_->thin(next_, predicted);
       const Registered found =
-          register_to_map(map_, few_of(thin.sparse, kFewPoints), pose_ * predicted,
+          register_to_map(map_, few_of(thin.sparse, kFewTried), pose_ * predicted,
                           poses == nullptr ? reach : kLeastReach);
       motion_ = pose_.inverse() * found.T_map_sensor;
       pose_ = found.T_map_sensor;
@@ -127,7 +128,7 @@ Vector3d weakest_direction(const SearchedScans& scans, double cell_m, const Pose
   for (const auto& point : scans.thin(0, guess).dense) points.push_back(point.cast<double>());
   map.add(points);
   Matrix3d normals = Matrix3d::Zero();
-  for (const auto& match : map.match(scans.thin(1, guess).sparse, guess, kReach)) {
+  for (const auto& match : map.match(scans.thin(1, guess).sparse, guess, kTryReach)) {
     normals += match.weight * match.normal * match.normal.transpose();
   }
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(normals).eigenvectors().col(0);
@@ -149,7 +150,7 @@ MotionSearch result_of(std::vector<TriedMotion> tried, const TriedMotion& given)
     const bool is_known = std::any_of(distinct.begin(), distinct.end(),
                                       [&](const TriedMotion& kept) { return one.is_like(kept); });
     if (one.is_like(given) && fits_better(one, result.alike)) result.alike = one;
-    if (is_known || one.matched < kLeastMatched * matched) continue;
+    if (is_known || one.matched < kLeastOfMatched * matched) continue;
     distinct.push_back(one);
     if (one.overlap > result.other.overlap) result.other = one;
   }
@@ -174,13 +175,14 @@ MotionSearch search_motion(const MovingScans& input, std::size_t begin,
   const double cell_m = input.scale.cell;
   const Pose motion = poses[0].inverse() * poses[1];
   const Vector3d along = weakest_direction(scans, cell_m, motion);
-  const double most = std::min({kFastest * scans.period(0), kFarthest, 2.0 * input.scale.range});
-  const int steps = static_cast<int>(std::ceil(most / kStep));
+  const double most =
+      std::min({kFastest * scans.period(0), kFarthestStep, 2.0 * input.scale.range});
+  const int steps = static_cast<int>(std::ceil(most / kTryStep));
   Track given(scans, cell_m, motion);
   std::vector<Track> tracks;
   for (int k = -steps; k <= steps; ++k) {
     if (k != 0)
-      tracks.emplace_back(scans, cell_m, Eigen::Translation3d(kStep * k * along) * motion);
+      tracks.emplace_back(scans, cell_m, Eigen::Translation3d(kTryStep * k * along) * motion);
   }
   for (const auto& [end, margin] : kRounds) {
     given.follow(end, &poses);

@@ -43,7 +43,7 @@ void PlaneMap::fit(Cell& cell, double cell_m) {
   const bool is_plane =
       thickness <= kMostThickness * edge && width >= kLeastWidth * edge && width > 3.0F * thickness;
   cell.mean = mean;
-  cell.weight = std::min(1.0F, std::pow(width / (kFullWidth * edge), 2.0F));
+  cell.weight = std::min(1.0F, std::pow(width / (kFullWidth * edge), 4.0F));
   cell.is_rough = thickness > kMostThickness * edge;
   cell.normal = is_plane ? Vector3f(solver.eigenvectors().col(0)) : Vector3f::Zero();
 }
@@ -171,7 +171,7 @@ registration::Matches PlaneMap::match(const std::vector<Vector3f>& points, const
       const double distance =
           normal.dot(at - centre_of(*cell, levels_[k].cell_m) - cell->mean.cast<double>());
       const Vector3d ray = (at - T_map_sensor.translation()).normalized();
-      const double weight = std::max<double>(cell->weight, std::abs(normal.dot(ray)));
+      const double weight = std::max<double>(cell->weight, std::pow(normal.dot(ray), 2));
       if (std::abs(distance) <= reach) matches.push_back({at, normal, distance, weight});
       break;
     }
