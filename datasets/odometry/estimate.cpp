@@ -34,7 +34,7 @@ constexpr MotionSigma kFreeSigma{0.3, 0.02};      // The same where it is not de
 constexpr MotionSigma kGivenSigma{5.0, 0.25};
 constexpr std::size_t kScansAtOnce = 8;
 /// Difference of overlaps: below it two motions fit equally, and above it one fits clearly better.
-constexpr double kEqual = 0.003, kClear = 0.01;
+constexpr double kEqual = 0.008, kClear = 0.01;
 constexpr std::size_t kFewestSearched = 4, kScansPerSearch = 150, kMostSearches = 6;
 
 /// The scale of the middle scan, or of the next that has a point.
