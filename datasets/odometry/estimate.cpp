@@ -289,29 +289,60 @@ std::optional<Pose> better_start(const MovingScans& input, std::vector<std::stri
   return best.first;
 }
 
-/// Adds doubts where another motion fits clearly better than that of `poses`.
-void search_along(const MovingScans& input, const Steps& steps, const std::vector<Pose>& poses,
-                  std::vector<std::string>& doubts) {
-  if (poses.size() < 2 * kSearchedScans) return;
+/// Adds doubts where another motion fits clearly better than that of `poses`, and returns it.
+std::optional<Pose> search_along(const MovingScans& input, const Steps& steps,
+                                 const std::vector<Pose>& poses, std::vector<std::string>& doubts) {
+  std::optional<Pose> better;
+  if (poses.size() < 2 * kSearchedScans) return better;
   const std::size_t most = std::min(2 + poses.size() / kScansPerSearch, kMostSearches);
   for (const std::size_t begin : evenly_spread(poses.size() - kSearchedScans + 1, most)) {
     if (begin == 0) continue;
     const auto first = poses.begin() + static_cast<std::ptrdiff_t>(begin);
     const MotionSearch search = search_motion(input, begin, {first, first + kSearchedScans});
-    if (search.advantage() > kClear) doubts.push_back(doubt_text(steps.names, begin, search));
+    if (search.advantage() <= kClear) continue;
+    doubts.push_back(doubt_text(steps.names, begin, search));
+    if (!better) better = search.other.first;
   }
+  return better;
+}
+
+/// An estimate that begins with a motion.
+struct Attempt {
+  Steps steps;
+  PoseEstimate estimate;
+  std::optional<Pose> better_motion;  ///< If one fits clearly better than that of the poses.
+};
+
+Attempt attempt(const MovingScans& input, const Course& course) {
+  Attempt made{odometry_of(input, course, nullptr), {}, {}};
+  made.estimate.poses = with_loops(input, made.steps, step_edges(made.steps, nullptr),
+                                   made.steps.poses(), made.estimate);
+  made.better_motion = search_along(input, made.steps, made.estimate.poses, made.estimate.doubts);
+  return made;
+}
+
+/// The estimate from the motion with which the first scans fit best, or, if later scans fit another
+/// motion better, from that one.
+Attempt best_attempt(const MovingScans& input) {
+  std::vector<std::string> doubts;
+  const std::size_t count = input.scans.size();
+  Attempt best = attempt(input, {count, better_start(input, doubts)});
+  if (best.better_motion) {
+    Attempt other = attempt(input, {count, best.better_motion, true});
+    const auto& scans = other.steps.scans;
+    if (!other.better_motion && std::none_of(scans.begin(), scans.end(), is_lost)) return other;
+  }
+  best.estimate.doubts.insert(best.estimate.doubts.begin(), doubts.begin(), doubts.end());
+  return best;
 }
 
 }  // namespace
 
 PoseEstimate estimate_poses(MovingScans input) {
-  PoseEstimate estimate;
-  if (input.scans.size() == 0) return estimate;
+  if (input.scans.size() == 0) return {};
   if (!(input.scale.cell > 0.0)) input.scale = scale_of(input.scans);
-  const auto first_motion = better_start(input, estimate.doubts);
-  const Steps steps = odometry_of(input, {input.scans.size(), first_motion}, nullptr);
+  auto [steps, estimate, better_motion] = best_attempt(input);
   check_certain(steps);
-  estimate.poses = with_loops(input, steps, step_edges(steps, nullptr), steps.poses(), estimate);
   if (is_at_rest(estimate.poses)) {
     estimate.notes.push_back(
         "The sensor was at rest, or all that it sees moves along with it: the estimated poses "
@@ -322,7 +353,6 @@ PoseEstimate estimate_poses(MovingScans input) {
         fixed_text(path_length(estimate.poses), 1), counted_text(estimate.loops, "closed loop")));
   }
   note_uncertain(steps, estimate.notes);
-  search_along(input, steps, estimate.poses, estimate.doubts);
   return estimate;
 }
 
