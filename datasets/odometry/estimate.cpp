@@ -35,6 +35,7 @@ constexpr MotionSigma kGivenSigma{5.0, 0.25};
 constexpr std::size_t kScansAtOnce = 8;
 /// Difference of overlaps: below it two motions fit equally, and above it one fits clearly better.
 constexpr double kEqual = 0.008, kClear = 0.01;
+constexpr double kPoorFit = 0.5;  // Of the median; scans of good estimates reach 0.68.
 constexpr std::size_t kFewestSearched = 4, kScansPerSearch = 150, kMostSearches = 6;
 
 /// The scale of the middle scan, or of the next that has a point.
@@ -306,6 +307,24 @@ std::optional<Pose> search_along(const MovingScans& input, const Steps& steps,
   return better;
 }
 
+/// Adds a doubt if scans after the second fit much worse than most, as after a turn that was too
+/// fast.
+void doubt_poor_fits(const Steps& steps, std::vector<std::string>& doubts) {
+  if (steps.scans.size() <= kFewestSearched) return;
+  std::vector<double> fits;
+  for (std::size_t i = 2; i < steps.scans.size(); ++i) fits.push_back(steps.scans[i].fit());
+  const double least = *std::min_element(fits.begin(), fits.end());
+  const double usual = median_in_place(fits);
+  if (least >= kPoorFit * usual) return;
+  const auto is_poor = [&](const Registered& scan) {
+    return &scan > &steps.scans[1] && scan.fit() < kPoorFit * usual;
+  };
+  doubts.push_back(fmt::format(
+      "only {} of the points of some scans lie on surfaces of the scans before them, compared with "
+      "{} in most (scans {})",
+      percent_text(least), percent_text(usual), ranges_text(steps, is_poor)));
+}
+
 /// An estimate that begins with a motion.
 struct Attempt {
   Steps steps;
@@ -318,6 +337,7 @@ Attempt attempt(const MovingScans& input, const Course& course) {
   made.estimate.poses = with_loops(input, made.steps, step_edges(made.steps, nullptr),
                                    made.steps.poses(), made.estimate);
   made.better_motion = search_along(input, made.steps, made.estimate.poses, made.estimate.doubts);
+  doubt_poor_fits(made.steps, made.estimate.doubts);
   return made;
 }
 

@@ -264,7 +264,7 @@ TEST_CASE("cleaning refuses what makes the map wrong, and does not mind labels",
                               "poses-coarse", "viewpoint-twice", "viewpoint-missing",
                               "sensor-elsewhere", "points-in-world", "poses-do-not-fit",
                               "beams-start-elsewhere", "poses-shifted", "poses-of-another-sequence",
-                              "poses-of-a-body", "poses-of-another-time", "motion-ambiguous"});
+                              "poses-of-a-body", "poses-of-another-time", "motion-uncertain"});
   CHECK(unused ==
         std::set<std::string>{"labels-shifted", "label-count", "labels-in-intensity-by-value"});
 }

@@ -41,7 +41,7 @@ TEST_CASE("a doubt about estimated poses is a finding", "[inspect]") {
   Sequence street = make_street({}, street_boxes());
   street.pose_doubts = {"scans 0 to 9 also fit a motion of 0.00 m"};
   const InspectionReport report = inspect(street, 2);
-  check_finds(report, "motion-ambiguous", "--poses FILE");
+  check_finds(report, "motion-uncertain", "--poses FILE");
   CHECK(report.findings[0].consequence == Consequence::kRefused);
 }
 

@@ -224,6 +224,17 @@ TEST_CASE("a wrong motion beside vehicles is doubted", "[odometry]") {
   CHECK(doubts > 0);
 }
 
+TEST_CASE("a turn that is too fast is doubted", "[odometry]") {
+  FlatWorld world;
+  for (int i = 0; i < 10; ++i) {
+    world.scan(room({0.15, 0.15, 0.1}), pose_at(0.05 * i, 0.0, i < 7 ? 0.0 : 30.0));
+  }
+  const PoseEstimate estimate = estimate_poses({world});
+  REQUIRE(estimate.doubts.size() == 1);
+  CHECK(estimate.doubts[0].find("of the points of some scans lie on surfaces") !=
+        std::string::npos);
+}
+
 TEST_CASE("a gap in time is reported, and the motion continues across it", "[odometry]") {
   FlatWorld world;
   for (int i = 0; i < 8; ++i) {

@@ -138,8 +138,8 @@ std::vector<Check> fit_checks() {
                        fixed_text(registration::kMostDistanceOfPair, 2)),
            "Estimate the poses again with a SLAM program that closes loops.", look_at_fit,
            Consequence::kRefused},
-          {"motion-ambiguous", "scans also fit another motion than that of the estimated poses",
-           "scans that fit one motion of the sensor better than any other",
+          {"motion-uncertain", "scans fit another motion than that of the estimated poses, or none",
+           "scans that fit one motion of the sensor, and better than any other",
            "Compare the path with the drive. If it is wrong, take scans at a higher rate, or the "
            "poses of a program that also uses an IMU: --poses FILE.",
            look_at_doubts, Consequence::kRefused}};
