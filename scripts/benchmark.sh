@@ -1,17 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Times the kernels of the raymoval method and the usual ways to cast rays, in one process, and whole
-# cells of every method.
+# Times the kernels of the raymoval method and the usual way to cast rays, in one process.
 #
 #   scripts/benchmark.sh [--out DIR]                 results go to DIR (default: results/run-kernels)
 #   RAYMOVAL_DATA=DIR scripts/benchmark.sh           also on your own sequence, see
 #                                                    `raymoval list sequences`
 #
 # Writes kernels.json (images and scans: repetitions in random order), maps.json (maps by size: one
-# size after the other, since only one such map is held at a time) and kernels.md, the table of
-# medians; and speed.json: whole cells (load, method, score) of every method on one scene, relative to
-# a fixed kernel of the same run, so that two machines can be compared:
-#   raymoval compare --speed DIR OTHER
+# size after the other, since only one such map is held at a time), and prints their tables.
+# `raymoval run` measures whole methods.
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -35,7 +32,7 @@ while [[ $# -gt 0 ]]; do
       shift 2
       ;;
     -h | --help)
-      sed -n '3,15s/^# \{0,1\}//p' scripts/benchmark.sh
+      sed -n '3,11s/^# \{0,1\}//p' scripts/benchmark.sh
       exit 0
       ;;
     *) fail "unknown argument '$1'; usage: scripts/benchmark.sh [--out DIR]" ;;
@@ -72,10 +69,4 @@ run kernels --benchmark_filter='-^map_' --benchmark_min_time=0.1 \
   --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=false
 run maps --benchmark_filter='^map_'
 
-"$kernels" --table "$out/kernels.json" "$out/maps.json" >"$out/kernels.md.part"
-# Last, since nothing else may run beside it.
-"$kernels" --cells "$out/speed.json" >>"$out/kernels.md.part" || fail "the whole cells failed, see above"
-mv "$out/kernels.md.part" "$out/kernels.md"
-cat "$out/kernels.md"
-echo
-echo "benchmark.sh: wrote $out/kernels.json, $out/maps.json, $out/speed.json and $out/kernels.md"
+echo "benchmark.sh: wrote $out/kernels.json and $out/maps.json"

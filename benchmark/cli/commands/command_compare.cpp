@@ -4,7 +4,6 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
-#include "benchmark/result/speed/speed_record.h"
 #include "benchmark/run/folder/run_folder.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/file_kind.h"
@@ -20,7 +19,7 @@ struct CompareFlags {
   std::string run, reference, time_band, format = "text";
   OutputFlag output;
   std::vector<std::string> tolerances, across;
-  bool update = false, with_times = false, speed = false;
+  bool update = false, with_times = false;
 };
 
 /// `--across parameters,version`, or each on its own.
@@ -125,45 +124,13 @@ ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) 
   return ExitCode::kDone;
 }
 
-/// The file of `compare --speed`, from a file or from the folder of scripts/benchmark.sh.
-std::filesystem::path speed_file(const std::string& given) {
-  std::filesystem::path path(given);
-  if (is_folder(path)) path /= "speed.json";
-  if (!is_there(path)) {
-    throw DataError(path.string() +
-                    ": no such file; expected two folders that scripts/benchmark.sh "
-                    "wrote, or the speed.json in them.");
-  }
-  return path;
-}
-
-/// Compares the times of whole cells of two machines or versions.
-ExitCode compare_speeds(const CompareFlags& flags) {
-  if (flags.update || flags.with_times || !flags.tolerances.empty() || !flags.across.empty() ||
-      !flags.output.path.empty() || flags.format != "text") {
-    throw UsageError("--speed compares times only: it can be combined with --time-band alone.");
-  }
-  const double band = options_of(flags).time_band.value_or(kSpeedBand);
-  const SpeedComparison comparison = compare_speed(read_speed(speed_file(flags.run)),
-                                                   read_speed(speed_file(flags.reference)), band);
-  print(coloured_verdicts(speed_text(comparison)));
-  if (comparison.verdict() == ExitCode::kCannotDo) {
-    throw UsageError("the times are not comparable, see above.");
-  }
-  if (comparison.verdict() == ExitCode::kWorse) {
-    throw Error("the run is slower than the reference, see above.", ExitCode::kWorse);
-  }
-  return ExitCode::kDone;
-}
-
 ExitCode compare(const CompareFlags& flags) {
   if (flags.run.empty() || flags.reference.empty()) {
     throw UsageError("two results are needed: expected `raymoval compare RUN REFERENCE`.");
   }
-  if (flags.with_times && !flags.update && !flags.speed) {
+  if (flags.with_times && !flags.update) {
     throw UsageError("--with-times needs --update: it keeps the times in the new reference.");
   }
-  if (flags.speed) return compare_speeds(flags);
   if (flags.update) return update(flags);
   const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
   (void)comparison_in(flags.format, {}, subject);  // A wrong format is reported before the work.
@@ -195,11 +162,7 @@ void add_compare_options(CommandOptions& options, CompareFlags& flags) {
   options.add(
       "--time-band", "FACTOR", flags.time_band,
       "A method that is slower than the reference by more than this factor is worse (default: "
-      "times are shown and not compared; with --speed 1.3)");
-  options.add_flag(
-      "--speed", flags.speed,
-      "Compare two speed.json of scripts/benchmark.sh, or their folders: times of whole "
-      "cells, relative to a fixed kernel of the same run");
+      "times are shown and not compared)");
   options.add("--format", "FORMAT", flags.format, "text, md, junit or json (default: text)");
   flags.output.add_to(options, "-o,--output",
                       "Write the comparison to this file, and print it as text");
@@ -237,8 +200,7 @@ Command add_compare_command(CommandParser& program) {
       "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3\n"
       "  raymoval compare out/new out/old --across parameters --tolerance F1=0.01\n"
       "  raymoval compare out/new out/old --format junit -o compare.xml\n"
-      "  raymoval compare out/new reference --update --with-times\n"
-      "  raymoval compare --speed out/kernels/speed.json old/speed.json --time-band 1.5");
+      "  raymoval compare out/new reference --update --with-times");
   return {options.name(), [flags] { return compare(*flags); }};
 }
 
