@@ -81,8 +81,7 @@ def freeze_tables(out, run):
         (out / f"table.{form}").write_text(must("table", run, "--format", form))
     must("report", run, "-o", out / "report.html", "--quiet")
     must("picture", run, "-o", out / "map.png", "--quiet")
-    must("picture", run, "-o", out / "overview.png", "--kind", "overview", "--method", "raymoval:offline", "--quiet")
-    for kind in ("pr-rr", "stages", "accuracy-time"):
+    for kind in ("pr-rr", "accuracy-time"):
         must("picture", run, "-o", out / f"{kind}.svg", "--kind", kind, "--quiet")
     print("tables", flush=True)
 

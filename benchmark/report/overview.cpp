@@ -171,7 +171,7 @@ std::string charts_html(const RunResults& results) {
   for (const std::string& protocol : results.protocols) {
     html += chart_html(sweep_chart(results, protocol));
   }
-  html += chart_html(stage_chart(results)) + "</div>\n";
+  html += "</div>\n";
   std::string stages;
   for (const TextTable& table : make_tables(results, {.what = {"times", "stages"}})) {
     stages += html_table(table);
