@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "benchmark/kernels/ray_designs.h"
-#include "benchmark/kernels/registration.h"
 #include "benchmark/kernels/workloads.h"
 #include "core/simd/instruction_set_scope.h"
 
@@ -22,7 +21,7 @@ const FirstHitImage& frame_at(Workload& workload, std::size_t pose) {
   static std::map<std::pair<const Workload*, std::size_t>, FirstHitImage> frames;
   FirstHitImage& frame = frames[{&workload, pose}];
   if (frame.range.empty()) {
-    frame = cast_first_hits(workload.map, workload.pose(pose), paper_grid(), kPaperLimits, 1);
+    frame = cast_first_hits(workload.map, workload.views[pose], paper_grid(), kPaperLimits, 1);
   }
   return frame;
 }

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "benchmark/kernels/registration.h"
+#include "benchmark/kernels/workloads.h"
 
 int main(int argc, char** argv) {
   using namespace raymoval;
@@ -12,9 +12,6 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   try {
     kernels_bench::register_image_kernels();
-    kernels_bench::register_map_kernels();
-    kernels_bench::register_scan_kernels();
-    kernels_bench::register_method_kernels();
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "kernels: %s\n", error.what());
