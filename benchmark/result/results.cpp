@@ -293,7 +293,7 @@ void choose_cells(ResultsRecord& results, const std::vector<std::string>& only) 
   if (only.empty()) return;
   std::vector<std::string> names;
   for (const Cell& cell : results.cells) names.push_back(cell.sequence + "/" + cell.name);
-  const std::vector<bool> chosen = select_cells({only}, names, "run");
+  const std::vector<bool> chosen = select_cells(only, names, "run");
   std::vector<Cell> left;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (chosen[i]) left.push_back(std::move(results.cells[i]));

@@ -41,9 +41,7 @@ struct MapRow {
 std::vector<const KeptCell*> chosen_cells(const KeptRun& run, const MapPictureOptions& options) {
   std::vector<std::string> names;
   for (const KeptCell& cell : run.cells()) names.push_back(cell.sequence + "/" + cell.name);
-  CellSelection selection;
-  selection.only = options.only;
-  const std::vector<bool> fits = select_cells(selection, names, "run");
+  const std::vector<bool> fits = select_cells(options.only, names, "run");
   std::vector<const KeptCell*> chosen;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool wanted = options.only.empty() ? !run.cells()[i].control : fits[i];

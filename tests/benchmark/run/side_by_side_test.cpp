@@ -116,7 +116,7 @@ TEST_CASE("A run with jobs goes on where one without has stopped, and the other 
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "run";
   RunOptions first{.out = out};
-  first.selection.only = {"first/*"};
+  first.only = {"first/*"};
   CHECK(run_suite(small_suite("0:0"), first).cells == 4);
   const RunSummary second = run_suite(small_suite("0:0"), {.out = out, .jobs = 2});
   CHECK(second.reused == 4);
