@@ -40,7 +40,7 @@ struct MethodRecord {
 struct ProtocolRecord {
   std::string name;      ///< Unique in the suite: "erasor", or the value of "as".
   std::string protocol;  ///< Name in the registry.
-  std::string version;   ///< Empty in files of earlier versions.
+  std::string version;
   Configuration options = {};
 };
 
@@ -91,9 +91,6 @@ struct Measurement {
   int threads = 1;
   double mean_seconds = 0.0;  ///< Per scan, without waiting for scans.
   std::optional<double> median_seconds = std::nullopt, p90_seconds = std::nullopt;
-  /// Mean of scans 50 to 149 and of the last 100 scans, if the sequence has 300 scans or more. A
-  /// rising mean shows that a method gets slower with the number of scans.
-  std::optional<double> early_seconds = std::nullopt, late_seconds = std::nullopt;
   double total_seconds = 0.0;  ///< Without waiting for scans.
   double load_seconds = 0.0;   ///< Waiting for scans.
   std::vector<StageSeconds> stages = {};

@@ -35,7 +35,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<ColumnValue> colum
   std::optional<double> percent = column.share.percent();
   visitor.require("percent");
   visitor.nullable("percent", percent);
-  if (!percent) visitor.later_field("undefined", column.undefined_reason);
+  if (!percent) visitor.field("undefined", column.undefined_reason);
 }
 
 template <class Visitor>
@@ -166,8 +166,6 @@ void describe(Visitor& visitor, typename Visitor::template Of<Measurement> measu
     by_scan.field("mean", measured.mean_seconds);
     by_scan.nullable("median", measured.median_seconds);
     by_scan.nullable("p90", measured.p90_seconds);
-    by_scan.nullable("early", measured.early_seconds);
-    by_scan.nullable("late", measured.late_seconds);
   });
   visitor.field("seconds_total", measured.total_seconds);
   visitor.field("seconds_load", measured.load_seconds);
@@ -268,7 +266,7 @@ void describe_run(Visitor& visitor, typename Visitor::template Of<RunRecord> run
     suite.field("protocols", run.protocols);
     suite.field("controls", run.controls);
   });
-  if (is_whole) visitor.later_field("cells", run.cells);
+  if (is_whole) visitor.field("cells", run.cells);
   visitor.nullable("build", run.build);
   visitor.nullable("machine", run.machine);
   if (is_whole) describe_places(visitor, run.sequences);

@@ -198,7 +198,7 @@ expect 0 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau refere
   --across parameters --tolerance F1=1
 expect 2 "Did you mean 'parameters'" compare other_tau reference --across parameter
 expect 2 "Did you mean 'junit'" compare run reference --format junt
-for format in text md junit json; do
+for format in text md junit; do
   expect 2 "street / raymoval:online" compare other_tau reference --format $format -o compared.$format
   holds "a comparison is written as $format" grep -q "raymoval:online" compared.$format
 done

@@ -83,7 +83,6 @@ def check_results(folder):
         check_valid(path.name, validator, document)
         for what, changed in mutations(document):
             check(f"{path.name} {what} is invalid", first_error(validator, changed) != "")
-    check_comparisons(folder)
     cells = json.loads((folder / "run/results.json").read_text())["cells"]
     for item in cells:  # The cells within are as those outside.
         check_valid("a cell of results.json", schema("cell"), {**item, "checksum": ""})
@@ -92,27 +91,6 @@ def check_results(folder):
         check("the plan is made", plan.returncode == 0, plan.stderr)
         for line in plan.stdout.splitlines():
             check_valid("a line of the plan", schema("plan"), json.loads(line))
-
-
-def check_comparisons(folder):
-    """A comparison with itself, one across parameters, one with less than the reference has."""
-    other = run("run", "--sequence", "street", "--frames", "0:2", "--method", "raymoval:online",
-                "--set", "raymoval.tau0=0.1", "--quiet", "--out", str(folder / "other"))
-    check("the other run is made", other.returncode == 0, other.stderr)
-    for arguments, verdicts in [(["run", "run", "--time-band", "9"], ["no regression"]),
-                                (["other", "run", "--across", "parameters", "--tolerance",
-                                  "F1=1"], ["no regression", "better, no regression"]),
-                                (["partial", "run"], ["not comparable"])]:
-        paths = [str(folder / word) if word in ("run", "other", "partial") else word
-                 for word in arguments]
-        made = run("compare", *paths, "--format", "json")
-        document = json.loads(made.stdout)
-        check(f"compare {arguments} has its verdict", document["verdict"] in verdicts,
-              document["verdict"])
-        check(f"compare {arguments} has its exit code", document["exit_code"] == made.returncode)
-        check_valid(f"compare {arguments}", schema("comparison"), document)
-        for what, changed in mutations(document):
-            check(f"a comparison {what} is invalid", first_error(schema("comparison"), changed) != "")
 
 
 def suites():

@@ -132,19 +132,20 @@ ExitCode compare(const CompareFlags& flags) {
     throw UsageError("--with-times needs --update: it keeps the times in the new reference.");
   }
   if (flags.update) return update(flags);
-  const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
+  const ComparisonSubject subject{flags.run, flags.reference};
+  const ComparisonOptions options = options_of(flags);
   (void)comparison_in(flags.format, {}, subject);  // A wrong format is reported before the work.
   flags.output.check();
   const std::filesystem::path run = find_results(flags.run);
   const std::filesystem::path reference = find_results(flags.reference);
   flags.output.check_is_none_of({run, reference});
   const Comparison comparison =
-      compare_results(read_result_set(run), read_result_set(reference), subject.options);
+      compare_results(read_result_set(run), read_result_set(reference), options);
   const std::string text = comparison_in(flags.format, comparison, subject);
   flags.output.write(text);
   const bool shows_text = !flags.output.path.empty() || flags.format == "text";
   print(shows_text ? coloured_verdicts(comparison_text(comparison)) : text);
-  return judged(comparison, subject.options);
+  return judged(comparison, options);
 }
 
 void add_compare_options(CommandOptions& options, CompareFlags& flags) {
@@ -163,7 +164,7 @@ void add_compare_options(CommandOptions& options, CompareFlags& flags) {
       "--time-band", "FACTOR", flags.time_band,
       "A method that is slower than the reference by more than this factor is worse (default: "
       "times are shown and not compared)");
-  options.add("--format", "FORMAT", flags.format, "text, md, junit or json (default: text)");
+  options.add("--format", "FORMAT", flags.format, "text, md or junit (default: text)");
   flags.output.add_to(options, "-o,--output",
                       "Write the comparison to this file, and print it as text");
   options.add_flag("--update", flags.update,
@@ -190,7 +191,7 @@ Command add_compare_command(CommandParser& program) {
       "the\n"
       "protocol has a tolerance). The output lists what differs.\n"
       "--format junit is XML for a CI server: a test suite for each sequence, and a test case for\n"
-      "each method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
+      "each method and protocol.\n"
       "Times of cells that ran in parallel (run --jobs) are compared only if equally many ran at "
       "once.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\n"

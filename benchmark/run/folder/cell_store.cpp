@@ -53,8 +53,7 @@ bool is_cell_file(const path& name) {
 void sweep_cell(const path& folder) {
   for (const path& entry : entries_of(folder)) {
     const path name = name_of_part(entry);
-    // Earlier versions left the second name.
-    if (name == kRemovals || entry.filename() == "removals.part") remove_removals(entry);
+    if (name == kRemovals) remove_removals(entry);
     std::error_code ignored;
     if (is_cell_file(name)) std::filesystem::remove(entry, ignored);
   }

@@ -97,7 +97,7 @@ TEST_CASE("What is wrong with a name or a place is told with its field", "[resul
   ordered_json run = to_json(RunRecord{"quick"});
   run["suite"]["sequences"].push_back(plain_cell()["data"]);
   run["places"] = ordered_json::parse(R"([{"path": "town", "frames": "one"}])");
-  CHECK_THROWS_WITH(run_record_from(run, "run.json"),
+  CHECK_THROWS_WITH(read_as<RunRecord>(run, "run.json"),
                     Contains("run.json: not the results of a run (places[0]: frame range 'one'"));
   // Two numbers are a list of them.
   Cell cell = read_as<Cell>(plain_cell(), "cell.json");

@@ -203,13 +203,10 @@ TEST_CASE("What a killed run left of a cell goes before it is run again, and not
   for (const fs::path& file : left) write_atomically(file, "half");
   for (const fs::path& file : foreign) write_atomically(file, "whole");
   write_atomically(place / "keep.txt", "mine");
-  fs::create_directories(place / "removals.part");  // As earlier versions named it.
-  write_atomically(place / "removals.part" / "000000.label", "half");
   store.prepare(kName);
   for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
   for (const fs::path& file : foreign) CHECK(fs::exists(file));
   CHECK(fs::exists(place / "keep.txt"));
-  CHECK_FALSE(fs::exists(place / "removals.part"));
 }
 
 TEST_CASE("A folder that cannot be made is told, and so is --out") {

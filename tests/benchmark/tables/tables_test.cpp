@@ -142,7 +142,7 @@ TEST_CASE("Stage times are means per scan with the rest named") {
 TEST_CASE("Stages that are summed over threads have shares of their sum") {
   RunResults results;
   // Two threads did 3 s of casting and 1 s of clustering in 2.5 s.
-  results.times = {{"x", 4, 2.5, 0.4, {{"cast", 3.0}, {"cluster", 1.0}}, 1, 2}};
+  results.times = {{"x", 4, 2.5, 0.4, {{"cast", 3.0}, {"cluster", 1.0}}, 2}};
   const TextTable table = make_tables(results).at(0);
   CHECK(rows_of(table) == std::vector<std::string>{"cast: 750.000, 75.0", "cluster: 250.000, 25.0",
                                                    "sum over threads: 1000.000, 100.0",
@@ -210,7 +210,7 @@ TEST_CASE("Published numbers of a protocol stand beside those of that protocol o
   results.protocols[1] = "dynamicmap-strict";
   tables = make_tables(results, with_papers({paper, kth}));
   CHECK(tables[1].groups.size() == 2);
-  CHECK(!tables[2].title.starts_with("Published"));
+  CHECK(tables.size() == 2);
 }
 
 TEST_CASE("Papers' rows stand beside the same frames of a sequence only") {
@@ -338,9 +338,9 @@ TEST_CASE("Column tables name the worst classes and add sequences up") {
   REQUIRE(losses.size() == 2);
   // Neither "rejection" itself nor a class within a band is a row.
   CHECK(rows_of(losses[0]) ==
-        std::vector<std::string>{", range 0-10 m: 1,000, 100.00", ", moving-car: 100, 50.00",
-                                 ", moving-bus: 200, 70.00", ", moving-person: 99, 100.00"});
-  CHECK(rows_of(losses[1]) == std::vector<std::string>{", road: 100, 1.00"});
+        std::vector<std::string>{"range 0-10 m: 1,000, 100.00", "moving-car: 100, 50.00",
+                                 "moving-bus: 200, 70.00", "moving-person: 99, 100.00"});
+  CHECK(rows_of(losses[1]) == std::vector<std::string>{"road: 100, 1.00"});
   const std::vector<TextTable> intervals = interval_tables(results);
   REQUIRE(intervals.size() == 1);
   CHECK(intervals[0].groups[0].columns == std::vector<std::string>{"PR", "F1"});
