@@ -6,6 +6,7 @@
 #include "benchmark/process/method_run.h"
 #include "benchmark/run/cell_run.h"
 #include "benchmark/run/folder/run_folder.h"
+#include "benchmark/suite/cell_selection.h"
 #include "benchmark/suite/suite_json.h"
 #include "core/files/file_kind.h"
 #include "core/parallel.h"

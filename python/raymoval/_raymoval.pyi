@@ -140,52 +140,6 @@ class Sink:
         """Takes the mask of a scan: N bool, True for what is removed. Each scan exactly once, in
         any order."""
 
-class OccupancyMap:
-    """Occupied voxels of the world in sparse bricks of 8 x 8 x 8, a bit each. Voxel k of an axis
-    holds the coordinates from k to k + 1 times `voxel_size`."""
-
-    def __init__(self, voxel_size: float) -> None: ...
-    def insert(self, points: npt.NDArray[Any]) -> int:
-        """Adds the voxels of world points (N x 3, metres). Returns how many are new."""
-    def erase(self, points: npt.NDArray[Any]) -> int:
-        """Removes the voxels of world points (N x 3, metres). Returns how many were there."""
-    def contains(self, points: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
-        """N bool: whether the voxel of each world point (N x 3, metres) is occupied."""
-    def voxels(self) -> npt.NDArray[np.int32]:
-        """M x 3 int32: the indices of all occupied voxels."""
-    @property
-    def voxel_size(self) -> float: ...
-    @property
-    def memory_bytes(self) -> int: ...
-    def __len__(self) -> int: ...
-
-class Bins:
-    """Directions around a sensor: the azimuth covers the full circle from -pi on, the elevation
-    goes from `elevation_min` to `elevation_max`, radians."""
-
-    def __init__(self, azimuth: int = 720, elevation: int = 450, elevation_min: float = -0.4363,
-                 elevation_max: float = 0.0524) -> None: ...
-    @property
-    def azimuth(self) -> int: ...
-    @property
-    def elevation(self) -> int: ...
-    @property
-    def elevation_min(self) -> float: ...
-    @property
-    def elevation_max(self) -> float: ...
-    def direction(self, row: int, column: int) -> npt.NDArray[np.float64]:
-        """Unit vector of a bin's centre in the sensor frame."""
-
-class FirstHitCaster:
-    """Casts rays into a map: the image of what a sensor would see first."""
-
-    def __init__(self, map: OccupancyMap, minimum_range: float = 0.0, maximum_range: float = 60.0,
-                 threads: int = 0) -> None: ...
-    def cast(self, pose: npt.ArrayLike, bins: Bins) -> npt.NDArray[np.float32]:
-        """The range at which the ray of each bin first enters an occupied voxel, metres: a row for
-        each elevation, from below, a column for each azimuth; float32, infinite where nothing is
-        hit. `pose` is T_world_sensor, 4 x 4."""
-
 def sensors() -> list[str]: ...
 def scenes() -> list[str]: ...
 
