@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import copy
+import hashlib
 import inspect
+import pickle
 import re
+import uuid
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 from raymoval import _raymoval
-from raymoval._versions import content_version
 
 Value = Union[bool, int, float, str]
 
@@ -73,10 +75,19 @@ def _parameters(method: Remover) -> dict[str, Value]:
 
 
 def _version(method: Remover) -> str:
-    """The method's own, or a hash of its code and of what it holds beside its parameters."""
+    """The method's own, or a hash of the source of its classes and of what the object holds beside
+    its parameters. Without a source, or with something that cannot be stored, a new one each time:
+    then no result is taken for that of this method."""
     if method.version is not None:
         return str(method.version)
-    return content_version(method, remover_name(method), Remover, _parameters(method))
+    classes = [kind for kind in type(method).__mro__ if kind not in Remover.__mro__]
+    parameters = _parameters(method)
+    held = sorted(item for item in vars(method).items() if item[0] not in parameters)
+    try:
+        content = pickle.dumps([[inspect.getsource(kind) for kind in classes], held], protocol=4)
+    except Exception:  # What objects raise that cannot be stored differs.
+        content = uuid.uuid4().bytes
+    return "python-" + hashlib.sha256(content).hexdigest()[:16]
 
 
 def entry(method: Union[Remover, type[Remover]]) -> dict[str, Any]:

@@ -8,7 +8,6 @@ import threading
 import time
 import unittest
 
-import numpy as np
 
 import raymoval
 from support import QUIET, KeepAll, NearPoints, street
