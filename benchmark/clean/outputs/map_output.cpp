@@ -49,12 +49,14 @@ RecordLayout labelled_layout(const RecordLayout& layout) {
   return layout_with_field(layout, "label", 'U', sizeof(std::uint16_t));
 }
 
-MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
-                     double voxel_size, const Eigen::Vector3d& voxel_origin)
-    : sink_(std::move(sink)),
+MapOutput::MapOutput(const std::filesystem::path& path, const RecordLayout& layout,
+                     MapContent content, double voxel_size, const Eigen::Vector3d& voxel_origin,
+                     const RecordWriting& writing)
+    : file_(path, writing),
       layout_(content.labelled ? labelled_layout(layout) : layout),
       labelled_(content.labelled),
       has_cells_(voxel_size > 0.0) {
+  file_.start(layout_);
   const auto add_side = [&](std::uint8_t mask) {
     sides_.push_back({mask, has_cells_
                                 ? std::make_unique<VoxelRows>(layout, voxel_size, voxel_origin)
@@ -83,7 +85,7 @@ ScanRows MapOutput::with_label(const ScanRows& rows,
 void MapOutput::write(const ScanRows& rows) {
   points_ += rows.rows.size();
   if (intensity_) intensity_->add(rows.rows);
-  sink_->add(rows);
+  file_.add(rows.rows);
 }
 
 void MapOutput::pass_on(const CleanedScan& scan) {
@@ -102,7 +104,6 @@ void MapOutput::pass_on(const CleanedScan& scan) {
   std::vector<std::uint8_t> removed;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] == 0) continue;
-    if (sink_->needs_world()) rows.world.push_back(scan.rows.world[i]);
     if (labelled_) removed.push_back(scan.mask[i]);
   }
   write(labelled_ ? with_label(rows, removed) : rows);
@@ -125,7 +126,7 @@ void MapOutput::finish() {
       write(labelled_ ? with_label(piece, removed) : piece);
     });
   }
-  sink_->finish();
+  file_.finish();
 }
 
 }  // namespace raymoval

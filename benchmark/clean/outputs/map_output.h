@@ -2,14 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmark/clean/outputs/clean_output.h"
-#include "benchmark/clean/outputs/row_sink.h"
 #include "benchmark/clean/rows/voxel_rows.h"
+#include "core/files/replacements.h"
 #include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
@@ -53,15 +54,17 @@ class MapOutput : public CleanOutput {
  public:
   /// @param layout of all rows, without a label
   /// @param voxel_size in metres; 0 keeps every point
-  MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
-            double voxel_size, const Eigen::Vector3d& voxel_origin);
+  /// @throws UsageError, DataError as `PointRecordWriter`
+  MapOutput(const std::filesystem::path& path, const RecordLayout& layout, MapContent content,
+            double voxel_size, const Eigen::Vector3d& voxel_origin,
+            const RecordWriting& writing = {});
 
   /// Counts the intensities that the map's file shows as whole numbers. @param option of the map
   void count_intensity(IntensityCount count, std::string option);
 
   void add(const CleanedScan& scan) override;
   void finish() override;
-  void commit_with(Replacements& together) override { sink_->commit_with(together); }
+  void commit_with(Replacements& together) override { file_.commit_with(together); }
   [[nodiscard]] std::uint64_t points() const override { return points_; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
 
@@ -76,7 +79,7 @@ class MapOutput : public CleanOutput {
   [[nodiscard]] ScanRows with_label(const ScanRows& rows,
                                     const std::vector<std::uint8_t>& removed) const;
 
-  std::unique_ptr<RowSink> sink_;
+  PointRecordWriter file_;
   RecordLayout layout_;  ///< Of the written rows.
   bool labelled_;
   std::vector<Side> sides_;
