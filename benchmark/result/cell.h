@@ -95,9 +95,6 @@ struct Measurement {
   double load_seconds = 0.0;   ///< Waiting for scans.
   std::vector<StageSeconds> stages = {};
   std::optional<double> peak_memory_mib = std::nullopt;
-  /// Mean seconds per scan of each run, in a run with repeats; the other values are those of the
-  /// run of median time. Empty without repeats.
-  std::vector<double> repeats = {};
   /// Number of cells that ran at once on the machine, which makes each slower. No value: the method
   /// ran alone.
   std::optional<int> side_by_side = std::nullopt;
@@ -134,14 +131,6 @@ struct CellIdentity {
   MethodRecord method;
   DataRecord data;
   std::vector<ProtocolRecord> protocols;
-};
-
-/// A further run of a cell's method for its time (results/schema/timing.schema.json).
-struct RepeatRecord {
-  std::string key;     ///< Key of the cell.
-  int number = 2;      ///< The first run, which made the cell, is number 1.
-  std::string digest;  ///< Of the masks.
-  Measurement measured = {};
 };
 
 }  // namespace raymoval

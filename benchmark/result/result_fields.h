@@ -171,7 +171,6 @@ void describe(Visitor& visitor, typename Visitor::template Of<Measurement> measu
   visitor.field("seconds_load", measured.load_seconds);
   visitor.field("stages", measured.stages);
   visitor.nullable("peak_memory_mib", measured.peak_memory_mib);
-  visitor.optional("repeats", measured.repeats);
   visitor.optional("side_by_side", measured.side_by_side);
 }
 
@@ -191,15 +190,6 @@ void describe(Visitor& visitor, typename Visitor::template Of<Cell> cell) {
   visitor.optional("confidence", cell.reliability);
   visitor.nullable("masks", cell.masks);
   visitor.nullable("measured", cell.measured);
-}
-
-template <class Visitor>
-void describe(Visitor& visitor, typename Visitor::template Of<RepeatRecord> repeat) {
-  visitor.schema_version();
-  visitor.field("key", repeat.key);
-  visitor.field("repeat", repeat.number);
-  visitor.field("digest", repeat.digest);
-  visitor.field("measured", repeat.measured);
 }
 
 // run.json and results.json.

@@ -66,9 +66,6 @@ void add_times(const Cell& cell, RunResults& results) {
   times.load_seconds += cell.measured->load_seconds;
   times.threads = std::max(times.threads, cell.measured->threads);
   times.side_by_side = std::max(times.side_by_side, cell.measured->side_by_side.value_or(1));
-  if (!cell.measured->repeats.empty()) {
-    times.repeats = static_cast<int>(cell.measured->repeats.size());
-  }
   for (const StageSeconds& stage : cell.measured->stages) {
     add_stage(times, stage.name, stage.seconds);
   }

@@ -15,16 +15,16 @@ namespace {
 
 /// The results of all stored cells that belong to the folder.
 ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& folder,
-                                const std::vector<FinishedCell>& finished, RunSummary& summary) {
+                                const std::vector<std::optional<Cell>>& finished,
+                                RunSummary& summary) {
   ResultsRecord results{folder.record};
   const std::vector<CellName>& asked = suite.cells();
   for (const CellName& name : folder.record.cells) {
     const auto place = std::find(asked.begin(), asked.end(), name) - asked.begin();
     const bool is_asked = static_cast<std::size_t>(place) < asked.size();
     const Cell* earlier = is_asked ? nullptr : folder.earlier.find(name);
-    if (is_asked && finished[place].cell) {
-      results.cells.push_back(*finished[place].cell);
-      merge_repeats(results.cells.back(), finished[place].repeats);
+    if (is_asked && finished[place]) {
+      results.cells.push_back(*finished[place]);
     } else if (earlier != nullptr) {
       results.cells.push_back(*earlier);
     } else {

@@ -95,9 +95,6 @@ TextTable stage_table(const MethodTimes& times) {
                           (overlap ? ", and shares are of the sum of all stages." : "."));
   }
   if (times.side_by_side > 1) table.notes.push_back(side_by_side_note(times.side_by_side));
-  if (times.repeats > 1) {
-    table.notes.push_back("The median of " + std::to_string(times.repeats) + " runs.");
-  }
   return table;
 }
 

@@ -9,8 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 cat >suite.json <<'JSON'
 { "sequences": [{"path": "street", "name": "a", "frames": "0:1"},
                 {"path": "street", "name": "b", "frames": "3:5"}],
-  "methods": ["comb", "comb2", "crash", "raymoval:online"], "protocols": ["erasor", "dynamicmap"],
-  "repeats": 2 }
+  "methods": ["comb", "comb2", "crash", "raymoval:online"], "protocols": ["erasor", "dynamicmap"] }
 JSON
 # The same files except for times, and for the note that times were measured side by side.
 expect 1 "b / crash:default: crashed: signal 11" run suite.json --quiet --threads 1 --keep-removals --out one
@@ -19,7 +18,6 @@ sed -i '/"jobs": 3/d; s/"threads": 1,$/"threads": 1/' three/run.json three/resul
 sed -i 's/"threads": 1,$/"threads": 1/' one/run.json one/results.json
 holds "jobs change no result" same_but_times one three
 holds "cells say how they were timed" grep -q '"side_by_side": 3' three/cells/b/comb-default/cell.json
-holds "so do repeats" grep -q '"side_by_side": 3' three/cells/b/comb-default/timing-2.json
 holds "alone they say nothing" test "$(grep -rl side_by_side one | wc -l)" -eq 0
 holds "tables say it" grep -q "Up to 3 cells ran in parallel" three/table.md
 holds "nothing that was started is left" test -z "$(left_over)"

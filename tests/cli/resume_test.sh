@@ -13,7 +13,6 @@ cat >suite.json <<'JSON'
                 {"path": "street", "name": "b", "frames": "4:6"}],
   "methods": ["comb", {"method": "comb2", "set": {"milliseconds": 5}}],
   "protocols": ["erasor"],
-  "repeats": 2,
   "threads": 1 }
 JSON
 run=(run suite.json --quiet --keep-removals)
@@ -74,8 +73,6 @@ sed 's/"erasor"/{"protocol": "erasor", "set": {"voxel_size": 0.3}}/' suite.json 
 stale 10 "protocol erasor options voxel_size was 0.2, is 0.3"
 sed 's/"erasor"/"erasor", {"protocol": "erasor", "as": "again"}/' suite.json >changed.json
 stale 10 "protocol again is new"
-sed 's/"repeats": 2/"repeats": 3/' suite.json >changed.json
-stale 4 "repeat 3 is not there yet"
 cp suite.json changed.json
 export FAULTY_VERSION=2
 stale 4 'run   b / comb:default: method version was "1", is "2"' "keep  b / noop:default"

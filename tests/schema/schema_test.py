@@ -65,7 +65,7 @@ def mutations(document):
 
 def check_results(folder):
     suite = {"sequences": [{"path": "street", "frames": "0:2"}],
-             "methods": ["raymoval:online"], "repeats": 2, "threads": 1}
+             "methods": ["raymoval:online"], "threads": 1}
     (folder / "suite.json").write_text(json.dumps(suite))
     made = run("run", str(folder / "suite.json"), "--quiet", "--out", str(folder / "run"))
     check("the run is made", made.returncode == 0, made.stderr)
@@ -73,8 +73,7 @@ def check_results(folder):
                   "--out", str(folder / "partial"))
     check("the part is made", partial.returncode == 0, partial.stderr)
     cell = folder / "run/cells/street/raymoval-online"
-    documents = [("cell", cell / "cell.json"), ("timing", cell / "timing-2.json"),
-                 ("results", folder / "run/results.json"),
+    documents = [("cell", cell / "cell.json"), ("results", folder / "run/results.json"),
                  ("results", folder / "partial/results.json"),
                  ("results", ROOT / "results/reference/street/results.json")]
     for name, path in documents:
@@ -108,15 +107,14 @@ def suites():
 
     yield True, base
     yield True, {**base, "name": "mine", "protocols": ["erasor"], "controls": False, "threads": 2,
-                 "repeats": 3, "time_limit_s": 0.5, "memory_limit_mib": 100}
+                 "time_limit_s": 0.5, "memory_limit_mib": 100}
     yield True, sequence(name="a", range_m={"min": 1, "max": 50}, sensor="hdl64e")
     yield True, method(**{"set": {"tau0": 0.2}, "as": "b:c"})
     yield True, method(set={"tau0": {"sweep": [0.2, 0.3]}, "tau1": 0.3})
     yield True, protocol(**{"set": {"voxel_size": 0.3}, "as": "coarse"})
-    for key, value in [("threads", 0), ("threads", 1.5), ("threads", "2"), ("repeats", 0),
-                       ("repeats", 1001), ("time_limit_s", 0), ("time_limit_s", "1"),
-                       ("memory_limit_mib", -1), ("controls", 1), ("name", 3), ("methods", []),
-                       ("methods", [7]), ("sequences", []), ("sequences", "street"),
+    for key, value in [("threads", 0), ("threads", 1.5), ("threads", "2"), ("time_limit_s", 0),
+                       ("time_limit_s", "1"), ("memory_limit_mib", -1), ("controls", 1),
+                       ("name", 3), ("methods", []), ("methods", [7]), ("sequences", []), ("sequences", "street"),
                        ("protocols", [None]), ("thread", 1)]:
         yield False, {**base, key: value}
     yield False, {"methods": ["noop"]}

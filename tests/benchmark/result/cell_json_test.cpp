@@ -55,14 +55,14 @@ bool may_be_missing(const Pointer& place) {
     if (is_named && !of_column && place.back() != "undefined") return true;
   }
   static const std::vector<std::string> kOptional = {
-      "schema_version", "key",          "data",
-      "columns",        "confidence",   "masks",
-      "measured",       "sensor_basis", "up",
-      "up_source",      "max",          "scan_period_s",
-      "drop_ego",       "label_rule",   "fingerprint",
-      "intervals",      "median",       "p90",
-      "peak_memory_mib", "repeats",     "T_sensor",
-      "time_offset_s",  "deskew",       "losses"};
+      "schema_version",  "key",          "data",
+      "columns",         "confidence",   "masks",
+      "measured",        "sensor_basis", "up",
+      "up_source",       "max",          "scan_period_s",
+      "drop_ego",        "label_rule",   "fingerprint",
+      "intervals",       "median",       "p90",
+      "peak_memory_mib", "T_sensor",     "time_offset_s",
+      "deskew",          "losses"};
   return std::find(kOptional.begin(), kOptional.end(), place.back()) != kOptional.end();
 }
 

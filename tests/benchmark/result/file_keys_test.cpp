@@ -46,7 +46,7 @@ const char* const kMeasured = R"({
   "threads": 3,
   "seconds_per_scan": {"mean": 0.5, "median": 0.25, "p90": 0.75},
   "seconds_total": 8.5, "seconds_load": 1.25, "stages": [{"name": "cast", "seconds": 0.375}],
-  "peak_memory_mib": 90.5, "repeats": [0.5, 0.625]})";
+  "peak_memory_mib": 90.5})";
 const char* const kBuild = R"({
   "version": "0.9", "commit": "abc", "source_tree": "clean", "compiler": "g++",
   "build_type": "Release"})";
@@ -163,9 +163,9 @@ class Draw {
   }
   /// Leaves out what may be missing, and makes null or empty what may be that.
   void parts(ordered_json& json) {
-    for (const char* key : {"drop_ego", "T_sensor", "time_offset_s", "deskew", "fingerprint",
-                            "sensor_basis", "up", "up_source", "intervals", "repeats", "sweep",
-                            "confidence", "commit", "source_tree", "missing"}) {
+    for (const char* key :
+         {"drop_ego", "T_sensor", "time_offset_s", "deskew", "fingerprint", "sensor_basis", "up",
+          "up_source", "intervals", "sweep", "confidence", "commit", "source_tree", "missing"}) {
       if (json.contains(key) && below(2) == 0) json.erase(key);
     }
     for (const char* key :
@@ -240,23 +240,6 @@ TEST_CASE("The keys of cell.json are these, with nothing missing and nothing mor
         R"({"threads":1,"seconds_per_scan":{"mean":0.0,"median":null,"p90":null},)"
         R"("seconds_total":0.0,"seconds_load":0.0,)"
         R"("stages":[{"name":"","seconds":0.0}],"peak_memory_mib":null})");
-}
-
-TEST_CASE("The keys of timing-2.json are these, with nothing missing and nothing more",
-          "[result]") {
-  const ordered_json whole = {{"schema_version", 1},
-                              {"key", "k"},
-                              {"repeat", 3},
-                              {"digest", "d"},
-                              {"measured", parsed(kMeasured)}};
-  const test::TemporaryFolder folder;
-  const auto file = folder.path() / "timing-2.json";
-  write_sealed(file, whole);
-  const RepeatRecord repeat = read_repeat(file);
-  CHECK(repeat.number == 3);
-  write_repeat(file, repeat);
-  CHECK(read_sealed(file).dump() == whole.dump());
-  CHECK(RepeatRecord{}.number == 2);  // The first run made the cell.
 }
 
 TEST_CASE("A cell's key is the hash of all that its counts depend on", "[result]") {

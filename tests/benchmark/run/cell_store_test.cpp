@@ -195,11 +195,8 @@ TEST_CASE("What a killed run left of a cell goes before it is run again, and not
   const CellStore store(folder.path());
   const fs::path place = store.folder(kName);
   make_folder(place);
-  const std::vector<fs::path> left = {new_part_name(place / "cell.json"),
-                                      new_part_name(place / "timing-2.json")};
-  const std::vector<fs::path> foreign = {new_part_name(place / "timing-notes.txt"),
-                                         new_part_name(place / "notes.json"),
-                                         place / "timing-3.json", place / "cell.json"};
+  const std::vector<fs::path> left = {new_part_name(place / "cell.json")};
+  const std::vector<fs::path> foreign = {new_part_name(place / "notes.json"), place / "cell.json"};
   for (const fs::path& file : left) write_atomically(file, "half");
   for (const fs::path& file : foreign) write_atomically(file, "whole");
   write_atomically(place / "keep.txt", "mine");
@@ -286,16 +283,4 @@ TEST_CASE("A damaged cell is run again, and so is a repeat of another cell") {
   const StoredCell damaged = store.find(kName, identity(), nullptr);
   CHECK(damaged.state == State::kStale);
   CHECK(damaged.why == "cell.json is damaged or was changed by hand");
-
-  RepeatRecord repeat{"key", 2, "digest"};
-  repeat.measured.mean_seconds = 0.25;
-  CHECK_FALSE(store.find_repeat(kName, 2, "key"));
-  store.keep_repeat(kName, repeat);
-  const auto found = store.find_repeat(kName, 2, "key");
-  REQUIRE(found);
-  CHECK(found->measured.mean_seconds == 0.25);
-  CHECK_FALSE(store.find_repeat(kName, 2, "other"));
-  CHECK_FALSE(store.find_repeat(kName, 3, "key"));
-  write_atomically(store.folder(kName) / "timing-2.json", "{");
-  CHECK_FALSE(store.find_repeat(kName, 2, "key"));
 }

@@ -98,9 +98,9 @@ TEST_CASE("What is not a run's own stays in its folder, whatever its name") {
                                          new_part_name(cell / "notes.txt")};
   for (const fs::path& file : foreign) write(file, "mine");
   // Remains of killed runs, which only runs name so, are deleted.
-  const std::vector<fs::path> left = {
-      new_part_name(out / "results.json"), new_part_name(cell / "cell.json"),
-      new_part_name(cell / "timing-2.json"), new_part_name(cell / "removals") / "000000.label"};
+  const std::vector<fs::path> left = {new_part_name(out / "results.json"),
+                                      new_part_name(cell / "cell.json"),
+                                      new_part_name(cell / "removals") / "000000.label"};
   for (const fs::path& file : left) write(file, "half");
   REQUIRE(run_suite(one_scan(), {.out = out, .keep_removals = true}).good());
   for (const fs::path& file : foreign) CHECK(read_text(file) == "mine");
