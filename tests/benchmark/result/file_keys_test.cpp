@@ -201,47 +201,6 @@ TEST_CASE("Files with any values have the same bytes after they were read", "[re
   }
 }
 
-TEST_CASE("The keys of run.json are these, with nothing missing and nothing more", "[result]") {
-  const ordered_json whole = whole_run();
-  CHECK(to_json(read_as<RunRecord>(whole, "run.json")).dump() == whole.dump());
-  CHECK(to_json(RunRecord{}).dump() ==
-        R"({"schema_version":1,"suite":{"name":"","sequences":[],"methods":[],"protocols":[],)"
-        R"("controls":true},"cells":[],"build":null,"machine":null})");
-  RunRecord empty;
-  empty.build.emplace();
-  empty.machine.emplace();
-  CHECK(to_json(empty)["build"].dump() == R"({"version":"","compiler":"","build_type":""})");
-  CHECK(to_json(empty)["machine"].dump() ==
-        R"({"processor":"","cores":0,"memory_gib":null,"threads":0})");
-}
-
-TEST_CASE("The keys of results.json are these, with nothing missing and nothing more", "[result]") {
-  const ordered_json whole = whole_results();
-  CHECK(to_json(read_as<ResultsRecord>(whole, "results.json")).dump() == whole.dump());
-  CHECK(to_json(ResultsRecord{}).dump() ==
-        R"({"schema_version":1,"run":{"schema_version":1,"suite":{"name":"","sequences":[],)"
-        R"("methods":[],"protocols":[],"controls":true},"build":null,"machine":null},)"
-        R"("controls":{"checked":true,"problems":[]},"cells":[]})");
-}
-
-TEST_CASE("The keys of cell.json are these, with nothing missing and nothing more", "[result]") {
-  const ordered_json whole = whole_cell();
-  CHECK(to_json(read_as<Cell>(whole, "cell.json")).dump() == whole.dump());
-  CHECK(to_json(Cell{}).dump() ==
-        R"({"schema_version":1,"sequence":"","name":"","key":null,"status":"ok","reason":"",)"
-        R"("output_tail":"","method":{"name":"","variant":"","version":"","online":false,)"
-        R"("control":false,"parameters":{}},"data":null,"protocols":[],"columns":null,)"
-        R"("masks":null,"measured":null})");
-  Cell empty;
-  empty.masks.emplace();
-  empty.measured.emplace().stages.emplace_back();
-  CHECK(to_json(empty)["masks"].dump() == R"({"digest":"","removed":0})");
-  CHECK(to_json(empty)["measured"].dump() ==
-        R"({"threads":1,"seconds_per_scan":{"mean":0.0,"median":null,"p90":null},)"
-        R"("seconds_total":0.0,"seconds_load":0.0,)"
-        R"("stages":[{"name":"","seconds":0.0}],"peak_memory_mib":null})");
-}
-
 TEST_CASE("A cell's key is the hash of all that its counts depend on", "[result]") {
   const Cell cell = read_as<Cell>(whole_cell(), "cell.json");
   const ordered_json versions = {{"version", kColumnsVersion}};
