@@ -67,7 +67,6 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
     layout_ = writing.confidence ? layout_with_confidence(rows_->layout()) : rows_->layout();
     has_confidence_ = writing.confidence;
   }
-  check_intensity_scale(all, writing);
   for (const OutputPath& output : all) {
     if (is_map(output)) add_map(output, writing, precision.origin);
   }
@@ -89,31 +88,14 @@ void CleanOutputs::note_losses(const OutputPath& output, const RecordLayout& lay
   }
 }
 
-void CleanOutputs::check_intensity_scale(const std::vector<OutputPath>& outputs,
-                                         const CleanWriting& writing) const {
-  if (!writing.intensity_scale) return;
-  const bool is_used = std::any_of(outputs.begin(), outputs.end(), [&](const OutputPath& output) {
-    return is_map(output) && shown_intensity(output.path, rows_->layout());
-  });
-  if (is_used) return;
-  throw UsageError(
-      "--intensity-scale has no effect: it is for .las maps of scans whose intensity is a real "
-      "number. Other formats keep every intensity as it is. Leave it out.");
-}
-
 void CleanOutputs::add_map(const OutputPath& output, const CleanWriting& writing,
                            const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
   const RecordLayout layout = content.labelled ? labelled_layout(layout_) : layout_;
   if (rows_->is_widened()) check_coordinates(output.path, Coordinates::kDouble);
   note_losses(output, layout);
-  RecordWriting records;
-  records.intensity_scale = writing.intensity_scale.value_or(1.0);
-  auto map = std::make_unique<MapOutput>(output.path, layout_, content, writing.voxel_size,
-                                         voxel_origin, records);
-  if (auto shown = shown_intensity(output.path, layout)) {
-    map->count_intensity({std::move(*shown), records.intensity_scale}, output.option);
-  }
+  auto map =
+      std::make_unique<MapOutput>(output.path, layout_, content, writing.voxel_size, voxel_origin);
   if (first_map_ == nullptr) first_map_ = map.get();
   outputs_.push_back(std::move(map));
 }

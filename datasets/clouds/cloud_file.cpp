@@ -187,12 +187,6 @@ std::vector<std::string> format_losses(const std::filesystem::path& path,
   return format_written(path).lost(layout);
 }
 
-std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
-                                              const RecordLayout& layout) {
-  const CloudFormat& format = format_written(path);
-  return format.shown_intensity == nullptr ? std::nullopt : format.shown_intensity(layout);
-}
-
 void check_coordinates(const std::filesystem::path& path, Coordinates coordinates) {
   if (coordinates == Coordinates::kFloat || path.extension() != ".bin") return;
   throw UsageError(path.string() +
@@ -203,15 +197,14 @@ void check_coordinates(const std::filesystem::path& path, Coordinates coordinate
 
 std::string whole_file(const std::filesystem::path& path, const PointRecords& records) {
   (void)position_fields(records.layout, path.string());
-  const auto encoder = format_written(path).encoder(path, {});
+  const auto encoder = format_written(path).encoder(path);
   encoder->start(records);
   const std::string body = encoder->rows(records);
   return encoder->head(records.size()) + body;
 }
 
-PointRecordWriter::PointRecordWriter(const std::filesystem::path& path,
-                                     const RecordWriting& writing)
-    : encoder_(format_written(path).encoder(path, writing)), file_(path) {}
+PointRecordWriter::PointRecordWriter(const std::filesystem::path& path)
+    : encoder_(format_written(path).encoder(path)), file_(path) {}
 
 void PointRecordWriter::start(const RecordLayout& layout) {
   (void)position_fields(layout, file_.path().string());

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,12 +82,6 @@ RecordLayout read_layout(const std::filesystem::path& path, const RecordReading&
 std::vector<std::string> format_losses(const std::filesystem::path& path,
                                        const RecordLayout& layout);
 
-/// The field of `layout` that the format of `path` also stores as a rounded value, multiplied by
-/// `RecordWriting::intensity_scale`. Empty if there is none. @throws UsageError for an unknown
-/// extension
-std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
-                                              const RecordLayout& layout);
-
 /// The bytes of a file named `path` with these points.
 /// @throws UsageError for an unknown extension; DataError as `PointRecordWriter::add`
 std::string whole_file(const std::filesystem::path& path, const PointRecords& records);
@@ -105,7 +98,7 @@ void check_coordinates(const std::filesystem::path& path, Coordinates coordinate
 class PointRecordWriter {
  public:
   /// Opens the file. @throws UsageError for an unknown extension, DataError if it cannot be written
-  explicit PointRecordWriter(const std::filesystem::path& path, const RecordWriting& writing = {});
+  explicit PointRecordWriter(const std::filesystem::path& path);
 
   /// To be called once before `add`, with the layout that all pieces have.
   void start(const RecordLayout& layout);

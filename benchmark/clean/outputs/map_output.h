@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "benchmark/clean/outputs/clean_output.h"
@@ -14,27 +12,6 @@
 #include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
-
-/// Counts intensities that lose their value in a file that stores them as whole numbers from 0 to
-/// 65,535.
-class IntensityCount {
- public:
-  /// @param scale see `RecordWriting::intensity_scale`
-  IntensityCount(ShownIntensity shown, double scale) : shown_(std::move(shown)), scale_(scale) {}
-
-  /// @param rows of the layout that `shown` is a field of
-  void add(const PointRecords& rows);
-  /// Notes for the user, in sentences: most intensities are rounded to 0 or 1, or some are too
-  /// large. @param option of the map, such as "-o"
-  [[nodiscard]] std::vector<std::string> remarks(const std::string& option) const;
-
- private:
-  ShownIntensity shown_;
-  double scale_;
-  std::uint64_t faint_ = 0;      ///< More than 0 and less than 1.
-  std::uint64_t too_large_ = 0;  ///< More than 65,535.
-  std::uint64_t positive_ = 0;
-};
 
 /// Which points a map has.
 struct MapContent {
@@ -56,17 +33,12 @@ class MapOutput : public CleanOutput {
   /// @param voxel_size in metres; 0 keeps every point
   /// @throws UsageError, DataError as `PointRecordWriter`
   MapOutput(const std::filesystem::path& path, const RecordLayout& layout, MapContent content,
-            double voxel_size, const Eigen::Vector3d& voxel_origin,
-            const RecordWriting& writing = {});
-
-  /// Counts the intensities that the map's file shows as whole numbers. @param option of the map
-  void count_intensity(IntensityCount count, std::string option);
+            double voxel_size, const Eigen::Vector3d& voxel_origin);
 
   void add(const CleanedScan& scan) override;
   void finish() override;
   void commit_with(Replacements& together) override { file_.commit_with(together); }
   [[nodiscard]] std::uint64_t points() const override { return points_; }
-  [[nodiscard]] std::vector<std::string> remarks() const override;
 
  private:
   /// The kept points or the removed points.
@@ -85,8 +57,6 @@ class MapOutput : public CleanOutput {
   std::vector<Side> sides_;
   bool has_cells_;
   std::uint64_t points_ = 0;
-  std::optional<IntensityCount> intensity_;
-  std::string option_;
 };
 
 }  // namespace raymoval

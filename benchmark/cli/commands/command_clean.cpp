@@ -29,7 +29,7 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labelled, labels, scans, page, picture;
-  std::string voxel, intensity_scale, caution, edits;
+  std::string voxel, caution, edits;
   std::string method;
   std::vector<std::string> settings;
   SequenceFlags reading;
@@ -220,9 +220,6 @@ CleanPaths checked_paths(const CleanFlags& flags) {
 CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method) {
   CleanWriting writing;
   if (!flags.voxel.empty()) writing.voxel_size = parse_positive("--voxel", flags.voxel);
-  if (!flags.intensity_scale.empty()) {
-    writing.intensity_scale = parse_positive("--intensity-scale", flags.intensity_scale);
-  }
   writing.method = method.full_name();
   if (!flags.caution.empty()) writing.method += ", caution " + flags.caution;
   writing.confidence = flags.confidence;
@@ -388,10 +385,6 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
   options.add("--scans", "DIR", flags.scans,
               "Also write each scan without its removed points, into a folder that opens like the "
               "sequence: in the format of the input, or as .pcd if that is a recording");
-  options.add(
-      "--intensity-scale", "FACTOR", flags.intensity_scale,
-      "Factor for real intensities in LAS files, which show whole numbers up to 65535, such as "
-      "65535 for intensities from 0 to 1 (default: 1); the exact values are in another field");
   options.add("--html", "FILE", flags.page,
               "Also write a page in which you can look at the map and correct it (.html)");
   options.add("--picture", "FILE", flags.picture, "Also write the map from above (.png)");

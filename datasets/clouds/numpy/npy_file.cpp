@@ -5,11 +5,9 @@
 #include <cstdio>
 #include <memory>
 #include <new>
-#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/format/gzip.h"
 #include "datasets/clouds/format/stored_points.h"
@@ -354,8 +352,7 @@ std::vector<std::string> lost_in_npy(const RecordLayout& layout) {
 
 CloudFormat npy_format() {
   CloudFormat format{".npy", read_npy_cloud, read_npy_records};
-  format.encoder = [](const std::filesystem::path&,
-                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
     return std::make_unique<NpyEncoder>();
   };
   format.lost = lost_in_npy;

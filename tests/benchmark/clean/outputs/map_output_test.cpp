@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_outputs.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "core/error.h"
 #include "core/files/file_kind.h"
-#include "core/files/files.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/las/las_head.h"
@@ -139,52 +136,6 @@ TEST_CASE("Maps of LAS scans keep their scale and reference system") {
     CHECK(map.las->scale == Eigen::Vector3d(0.005, 0.005, 1e-4));
     CHECK(column(map, "x")[0] == Approx(10.125));
   }
-}
-
-TEST_CASE("Intensities that LAS shows as 0 or 1 are told, and a scale spreads them") {
-  const TemporaryFolder folder;
-  const auto scans = four_points();  // All have 0.5.
-  const Sequence sequence = sequence_of(scans);
-  CleanPaths paths;
-  paths.map = folder.path() / "map.las";
-  const auto results = [&](std::optional<double> scale, double voxel) {
-    CleanWriting writing;
-    writing.intensity_scale = scale;
-    writing.voxel_size = voxel;
-    CleanOutputs outputs(paths, writing, sequence, no_progress(), kGoOn);
-    outputs.add(scans->load(0), kTwoRemoved);
-    outputs.commit();
-    return outputs.results();
-  };
-  const std::vector<std::string> faint = results({}, 0.0);
-  REQUIRE(faint.size() == 1);
-  CHECK_THAT(faint[0], Contains("-o: 2 of 2 intensities lie between 0 and 1") &&
-                           Contains("'intensity_1'") && Contains("--intensity-scale 65535"));
-  paths.overwrite = true;
-  for (const double voxel : {0.0, 0.1}) {
-    CHECK(results(1000.0, voxel).empty());
-    CHECK(column(read_records(paths.map), "intensity") == std::vector<double>{500, 500});
-    CHECK(column(read_records(paths.map), "intensity_1") == std::vector<double>{0.5, 0.5});
-  }
-  const std::vector<std::string> large = results(1e6, 0.0);
-  REQUIRE(large.size() == 1);
-  CHECK_THAT(large[0], Contains("2 points with an intensity of more than 65,535"));
-  CHECK(column(read_records(paths.map), "intensity") == std::vector<double>{65535, 65535});
-}
-
-TEST_CASE("A scale of intensities needs a file that shows them as whole numbers") {
-  const TemporaryFolder folder;
-  CleanPaths paths;
-  paths.map = folder.path() / "map.ply";
-  CleanWriting writing;
-  writing.intensity_scale = 255.0;
-  CHECK_THROWS_WITH(write(paths, four_points(), writing),
-                    Contains("--intensity-scale has no effect") && Contains(".las"));
-  paths.map = folder.path() / "map.las";
-  CHECK_THROWS_AS(
-      write(paths, four_points(parse_point_layout("x y z intensity:u2 ring:u2")), writing),
-      UsageError);
-  CHECK(entries_of(folder.path()).empty());
 }
 
 TEST_CASE("What a format cannot hold is said, or refused, before anything is written") {
