@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "benchmark/result/checks/controls_check.h"
-#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/folder/folder_lock.h"
 #include "benchmark/run/folder/run_folder.h"
@@ -76,7 +75,6 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   summary.earlier = folder.earlier.kept.size();
   const ResultsRecord results = collected_results(opened, folder, runs.finished(), summary);
   summary.controls = results.control_problems;
-  summary.flat_sweeps = flat_sweeps(shown_results(results));
   check_run_folder_stays(options.out);
   write_result_files(options.out, results);
   return summary;

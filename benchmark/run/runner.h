@@ -17,7 +17,6 @@ struct RunSummary {
   std::vector<std::string> failures;     ///< "sequence / method: reason", one for each failed cell.
   std::vector<std::string> controls;     ///< Problems of the controls.
   std::vector<std::string> lost_scans;   ///< "sequence: sentence" on scans that were not read.
-  std::vector<std::string> flat_sweeps;  ///< Sentences on swept parameters without effect.
   std::vector<std::string> missing;      ///< "sequence / method" of cells that were not run.
   [[nodiscard]] bool good() const { return failures.empty() && controls.empty(); }
 };

@@ -72,9 +72,7 @@ py::dict dict_of(const RunSummary& summary, const std::vector<std::string>& with
   answer["failures"] = py::cast(summary.failures);
   answer["control_problems"] = py::cast(summary.controls);
   std::vector<std::string> warnings = without_effect;
-  for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
-    warnings.insert(warnings.end(), lines->begin(), lines->end());
-  }
+  warnings.insert(warnings.end(), summary.lost_scans.begin(), summary.lost_scans.end());
   answer["warnings"] = py::cast(warnings);
   return answer;
 }

@@ -32,9 +32,7 @@ void report_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     print_error(red("raymoval: cell failed:") + " " + failure);
   }
-  for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
-    for (const std::string& line : *lines) print_warning(line);
-  }
+  for (const std::string& line : summary.lost_scans) print_warning(line);
   for (const std::string& problem : summary.controls) {
     print_error(red("raymoval: controls have wrong scores:") + " " + problem);
   }
