@@ -20,7 +20,7 @@ for what in methods variants protocols columns sensors sequences scenes simulate
 expect 0 "FILE.db3 " list sequences
 expect 0 "a folder of .pcd, .ply, .bin, .las, .npy or .npz scans with poses.txt" list sequences
 for name in raymoval raymoval:online noop erasor dynamicmap protocol:erasor; do
-  for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
+  for form in "" --markdown; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done
 expect 0 "tau0" describe raymoval:offline --markdown
 holds "words in a table of parameters begin on the left" test -z "$(grep -e '-: |' out.txt)"

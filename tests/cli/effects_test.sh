@@ -19,7 +19,6 @@ silent() {
 expect 0 "NO EFFECT in this variant: $when." describe $general
 expect 0 "It acts when version is 2" describe erasor
 holds "th_bin_max_h acts in erasor:version2" test -z "$("$raymoval" describe erasor:version2 | grep -A1 '^  th_bin_max_h ' | grep 'NO EFFECT')"
-expect 0 '"acts": false' describe $general --json
 expect 0 "NO EFFECT in this variant: $when." describe $general --markdown
 
 # --set warns in run, plan and clean, once for each variant without effect.
