@@ -15,7 +15,7 @@
 
 namespace raymoval {
 
-/// Endings of files that can be read: ".pcd" and so on, also compressed with gzip: ".pcd.gz".
+/// Endings of files that can be read, ".pcd" and so on.
 const std::vector<std::string>& cloud_extensions();
 
 /// Endings of files that can be written, such as maps.
@@ -24,15 +24,12 @@ const std::vector<std::string>& written_extensions();
 /// The entry of `cloud_extensions` in which the name of `path` ends; empty if there is none.
 std::string cloud_extension(const std::filesystem::path& path);
 
-/// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
+/// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.
 std::string cloud_stem(const std::filesystem::path& path);
 
 /// For a known extension that is not supported: a sentence that names a program to convert the
 /// file. Empty for other extensions.
 std::string conversion_text(const std::filesystem::path& path);
-
-/// Whether `path` names a file of points that is compressed with gzip.
-bool is_compressed(const std::filesystem::path& path);
 
 /// Reads positions and intensities of the points of a file of any known format, see
 /// `cloud_extensions`.

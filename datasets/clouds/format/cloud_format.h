@@ -34,7 +34,7 @@ struct RecordReading {
   std::optional<std::string> point_layout = std::nullopt;
 };
 
-/// The content of a file of points, decompressed.
+/// The content of a file of points.
 struct CloudBytes {
   const std::filesystem::path& path;  ///< For messages.
   std::string_view text;
