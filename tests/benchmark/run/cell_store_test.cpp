@@ -13,7 +13,6 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/checks/differences.h"
 #include "benchmark/result/removals/removal_files.h"
-#include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "tests/benchmark/small_world.h"
@@ -125,29 +124,6 @@ TEST_CASE("No cell stands beside removals of another one at any moment") {
   }
 }
 
-TEST_CASE("A cell that had no removals goes before those of another one come") {
-  const OneCell one;
-  const auto& [folder, store, masks, cell] = one;
-  store.keep(cell);
-  const fs::path removals = written_removals(store, masks);
-  FolderWatch watch({store.folder(kName)});
-  store.keep(cell, removals);
-  const auto events = watch.events();
-  CAPTURE(events);
-  REQUIRE(position(events, "gone cell.json") < std::ssize(events));
-  CHECK(position(events, "gone cell.json") < position(events, "there removals"));
-}
-
-TEST_CASE("A cell without removals does not stand beside those of an earlier one") {
-  const OneCell one;
-  const auto& [folder, store, masks, cell] = one;
-  store.keep(cell, written_removals(store, masks));
-  CHECK(fs::exists(store.folder(kName) / "removals/000007.label"));
-  store.keep(cell);
-  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
-  CHECK(fs::exists(store.folder(kName) / "cell.json"));
-}
-
 TEST_CASE("A place where a cell could not be kept is refused before it is needed, and left whole") {
   const OneCell one;
   const auto& [folder, store, masks, cell] = one;
@@ -176,18 +152,6 @@ TEST_CASE("A stored result is a whole cell that did not fail") {
   cell.fail(CellStatus::kFailed, "no idea");
   store.keep(cell);
   CHECK_FALSE(store.has_result(kName));
-}
-
-TEST_CASE("Removals that were not written in the end leave a cell without any") {
-  const OneCell one;
-  const auto& [folder, store, masks, cell] = one;
-  store.prepare(kName);
-  store.keep(cell, store.new_removals(kName));  // Nothing is there.
-  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
-  CHECK(store.find(kName, identity(), nullptr).state == StoredCell::State::kFresh);
-  store.keep(cell, written_removals(store, masks));
-  store.keep(cell, store.new_removals(kName));
-  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
 }
 
 TEST_CASE("What a killed run left of a cell goes before it is run again, and nothing else does") {
