@@ -10,8 +10,7 @@ of the sensor's frame to the world's. Functions that take long let other threads
 tqdm is installed (`progress=False` shows none; a function of yours is called with a
 `ProgressState`), and stop on Ctrl-C.
 """
-from raymoval._methods import (Method, Parameter, Protocol, Rate, Remover, Variant, describe,
-                               methods, protocols)
+from raymoval._methods import Remover, describe, methods, protocols
 from raymoval._pages import Page, show
 from raymoval._progress import ProgressState
 from raymoval._raymoval import (Cancelled, ConfigurationError, DataError, Error, InternalError,
@@ -23,8 +22,8 @@ from raymoval._sequences import clean, estimate, from_arrays, open, refine, time
 
 __all__ = [
     "Cancelled", "Comparison", "ConfigurationError", "DataError", "Error", "InternalError",
-    "Masks", "Method", "MethodError", "Page", "Parameter", "ProgressState", "Protocol", "ProtocolScore", "Rate", "Remover", "Run", "Scan",
-    "Scans", "Scores", "SensorModel", "Sequence", "Sink", "UsageError", "Variant", "__version__",
+    "Masks", "MethodError", "Page", "ProgressState", "ProtocolScore", "Remover", "Run", "Scan",
+    "Scans", "Scores", "SensorModel", "Sequence", "Sink", "UsageError", "__version__",
     "clean", "compare", "describe", "estimate", "from_arrays", "load_run", "methods", "open", "protocols",
     "refine", "run", "scenes", "score", "sensors", "show", "times",
 ]

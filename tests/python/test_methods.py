@@ -2,6 +2,7 @@
 """Methods in Python: what they are given, what is asked of them, and what their mistakes are told."""
 import inspect
 import os
+import re
 import subprocess
 import sys
 import threading
@@ -226,31 +227,19 @@ class Entries(unittest.TestCase):
 
 
 class Descriptions(unittest.TestCase):
-    def test_a_method(self):
-        plus = raymoval.describe("raymoval:online")
-        self.assertEqual((plus.name, plus.online), ("raymoval:online", True))
-        tau0 = plus["tau0"]
-        self.assertEqual((tau0.unit, tau0.minimum), ("m", 0.0))
-        self.assertTrue(tau0.sentence and tau0.source)
-        self.assertIn("tau0 = ", str(plus))
-        self.assertFalse(raymoval.describe("raymoval").online)
-
     def test_every_name_can_be_described(self):
         for name in raymoval.methods():
-            self.assertEqual(raymoval.describe(name).name, name)
+            self.assertIn(name + " (version ", raymoval.describe(name))
         for name in raymoval.protocols():
-            self.assertEqual(raymoval.describe("protocol:" + name).name, name)
+            self.assertIn(name + " (version ", raymoval.describe("protocol:" + name))
+        self.assertIn("  tau0 = ", raymoval.describe("raymoval:online"))
 
     def test_every_parameter_can_be_given_to_clean(self):
         own = set(inspect.signature(raymoval.clean).parameters) - {"parameters"}
         for name in raymoval.methods():
-            self.assertEqual(own & {one.name for one in raymoval.describe(name).parameters}, set())
-
-    def test_a_protocol(self):
-        erasor = raymoval.describe("protocol:erasor")
-        rates = {rate.name: rate for rate in erasor.rates}
-        self.assertEqual((rates["F1"].unit, rates["F1"].role), ("fraction", "headline"))
-        self.assertEqual((rates["PR"].unit, rates["PR"].decimals), ("percent", 3))
+            described = set(re.findall(r"^  (\w+) = ", raymoval.describe(name), re.M))
+            self.assertTrue(described or name.split(":")[0] in ("noop", "remove-all", "oracle"), name)
+            self.assertEqual(own & described, set())
 
     def test_a_wrong_name(self):
         raised(self, raymoval.UsageError, "Did you mean 'dufomap'?", raymoval.describe, "dufomp")

@@ -37,7 +37,7 @@ import raymoval
 raymoval.estimate(5)
 raymoval.open(5)
 raymoval.open("street")[0].point
-raymoval.describe("raymoval").parameters.defaults
+raymoval.describe("raymoval").parameters
 END
 "${mypy[@]}" wrong.py >wrong.txt 2>&1
 holds "mypy finds four mistakes in a wrong caller: $(cat wrong.txt)" \

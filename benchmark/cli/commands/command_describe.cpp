@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "benchmark/cli/command.h"
+#include "benchmark/cli/description.h"
 #include "benchmark/tables/text/text_table.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
 #include "eval/protocol.h"
 #include "eval/protocol_registry.h"
-#include "methods/registry.h"
 
 namespace raymoval {
 
@@ -210,8 +210,7 @@ struct DescribeFlags {
 };
 
 /// A name that is both a method's and a protocol's means the method.
-Description description_of(const std::string& name) {
-  const MethodRegistry& registry = program_methods();
+Description description_of(const MethodRegistry& registry, const std::string& name) {
   std::vector<std::string> names;
   const std::string method = name.substr(0, name.find(':'));
   for (const auto& entry : registry.entries()) {
@@ -242,7 +241,7 @@ ExitCode describe(const DescribeFlags& flags) {
   if (flags.name.empty()) {
     throw UsageError("NAME is missing: name a method or a protocol (see `raymoval list`).");
   }
-  const Description description = description_of(flags.name);
+  const Description description = description_of(program_methods(), flags.name);
   print(flags.markdown ? description_markdown(description)
                        : description_text(description, flags.all));
   if (is_also_protocol(flags.name)) {
@@ -253,6 +252,10 @@ ExitCode describe(const DescribeFlags& flags) {
 }
 
 }  // namespace
+
+std::string described(const MethodRegistry& methods, const std::string& name) {
+  return description_text(description_of(methods, name), true);
+}
 
 Command add_describe_command(CommandParser& program) {
   auto flags = std::make_shared<DescribeFlags>();
