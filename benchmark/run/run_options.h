@@ -24,7 +24,7 @@ struct RunOptions {
   /// marked as taken side by side.
   int jobs = 1;
   std::vector<std::string> only = {};  ///< Patterns of the cells that are run, see `select_cells`.
-  bool collect = false;  ///< Whether results are made of the stored cells only.
+  bool collect = false;                ///< Whether results are made of the stored cells only.
   /// Whether results of another suite or other data are replaced; else the run is refused.
   bool overwrite = false;
 };

@@ -33,7 +33,7 @@ struct TableOptions {
   std::vector<std::string> rates = {};  ///< In this order, also kTimeRate; empty: the main ones.
   std::optional<int> decimals = {};  ///< Of every rate; nothing: as many as the rate's spec says.
   std::map<std::string, int> decimals_of = {};  ///< Of one rate; overrides `decimals`.
-  std::string sort = "none";   ///< A rate, kTimeRate, kMemoryColumn, "name" or "none".
+  std::string sort = "none";                ///< A rate, kTimeRate, kMemoryColumn, "name" or "none".
   std::vector<OutsideColumn> outside = {};  ///< Rates from elsewhere, see `set_beside`.
 };
 

@@ -256,7 +256,7 @@ TEST_CASE("Tables of the kinds that are asked for") {
     return list;
   };
   CHECK(titles({"accuracy", "losses"}).size() == 4);  // No cell has shares by class.
-  CHECK(titles({"accuracy"}).size() == 4);  // Of each protocol, and their means.
+  CHECK(titles({"accuracy"}).size() == 4);            // Of each protocol, and their means.
   CHECK(titles({}).size() == 4);
   CHECK(latex_kinds(results) == std::vector<std::string>{"accuracy"});
   results.sweeps = {{"x", "m", {{"size", "1"}}}, {"y_1", "m", {{"size", "2"}}}};
