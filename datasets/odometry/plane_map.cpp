@@ -90,12 +90,12 @@ void PlaneMap::add(Level& level, const std::vector<Vector3d>& points) {
   }
 }
 
-void PlaneMap::add(const std::vector<Vector3d>& points) {
-  const Eigen::Matrix3d turn = turn_of_cells();
-  std::vector<Vector3d> turned;
-  turned.reserve(points.size());
-  for (const Vector3d& point : points) turned.push_back(turn * point);
-  for (Level& level : levels_) add(level, turned);
+void PlaneMap::add(const std::vector<Vector3f>& points, const Pose& T_map_sensor) {
+  const Pose T_cells_sensor = turn_of_cells() * T_map_sensor;
+  std::vector<Vector3d> placed;
+  placed.reserve(points.size());
+  for (const Vector3f& point : points) placed.push_back(T_cells_sensor * point.cast<double>());
+  for (Level& level : levels_) add(level, placed);
 }
 
 void PlaneMap::forget_beyond(const Vector3d& centre_of_map, double radius) {

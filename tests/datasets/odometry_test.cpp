@@ -85,20 +85,20 @@ double error_of(const std::vector<Pose>& poses, const ScanSource& truth) {
 }
 
 std::string all_notes(const PoseEstimate& estimate) {
-  std::string text;
-  for (const std::string& note : estimate.notes) text += note + '\n';
+  std::string text = estimate.summary + '\n';
+  for (const std::string& warning : estimate.warnings) text += warning + '\n';
   return text;
 }
 
 }  // namespace
 
 TEST_CASE("a cell has the plane of its points, and no plane if they fill it", "[odometry]") {
-  std::vector<Vector3d> wall, heap;
+  std::vector<Eigen::Vector3f> wall, heap;
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> any(0.0, 0.5);
+  std::uniform_real_distribution<float> any(0.0F, 0.5F);
   for (int i = 0; i < 60; ++i) {
-    wall.emplace_back(0.2, any(random), any(random));
-    heap.emplace_back(5.0 + any(random), any(random), any(random));
+    wall.emplace_back(0.2F, any(random), any(random));
+    heap.emplace_back(5.0F + any(random), any(random), any(random));
   }
   PlaneMap map(0.5);
   map.add(wall);
@@ -109,7 +109,7 @@ TEST_CASE("a cell has the plane of its points, and no plane if they fill it", "[
   CHECK(std::abs(beside[0].distance) == Approx(0.03).margin(1e-4));
   CHECK(std::abs(beside[0].normal.x()) == Approx(1.0).margin(1e-4));
   // A point of the heap is matched with a point, along three axes.
-  const auto heaped = map.match({heap[0].cast<float>()}, Pose::Identity(), 0.1);
+  const auto heaped = map.match({heap[0]}, Pose::Identity(), 0.1);
   REQUIRE(heaped.size() == 3);
   for (const auto& match : heaped) CHECK(match.distance == Approx(0.0).margin(1e-6));
   CHECK(map.match({{9.0F, 9.0F, 9.0F}}, Pose::Identity(), 0.1).empty());
@@ -117,7 +117,7 @@ TEST_CASE("a cell has the plane of its points, and no plane if they fill it", "[
 
 TEST_CASE("cells far away are forgotten", "[odometry]") {
   PlaneMap map(0.5);
-  map.add({{0.1, 0.1, 0.1}, {30.0, 0.0, 0.0}});
+  map.add({{0.1F, 0.1F, 0.1F}, {30.0F, 0.0F, 0.0F}});
   CHECK(map.size() == 2);
   map.forget_beyond(Vector3d::Zero(), 20.0);
   CHECK(map.size() == 1);
