@@ -98,8 +98,8 @@ PoseWork take_pose_work(SequenceOptions& options) {
   return PoseWork::kRefine;
 }
 
-void make_poses(Sequence& sequence, PoseWork work, const OpenContext& context) {
-  if (work == PoseWork::kNone) return;
+std::vector<std::string> make_poses(Sequence& sequence, PoseWork work, const OpenContext& context) {
+  if (work == PoseWork::kNone) return {};
   const bool estimates = work == PoseWork::kEstimate;
   check_can_move(sequence, std::string("--poses ") + (estimates ? kEstimate : kRefine));
   const odometry::MovingScans input{*sequence.scans, point_times_of(sequence), {},
@@ -115,9 +115,10 @@ void make_poses(Sequence& sequence, PoseWork work, const OpenContext& context) {
   sequence.notes.insert(sequence.notes.end(), made.warnings.begin(), made.warnings.end());
   sequence.poses_file = estimates ? kEstimate : kRefine + (":" + sequence.poses_file);
   sequence.T_body_sensor.reset();
-  if (sequence.stamps.size() != sequence.made_poses.size()) return;
+  if (sequence.stamps.size() != sequence.made_poses.size()) return made.warnings;
   std::vector<std::optional<Pose>> poses(sequence.made_poses.begin(), sequence.made_poses.end());
   sequence.motion = motion_along(sequence.stamps, poses);
+  return made.warnings;
 }
 
 std::string pose_file_text(const Sequence& sequence, const std::filesystem::path& path) {

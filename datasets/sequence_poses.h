@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "datasets/sequence.h"
 
@@ -22,9 +23,10 @@ enum class PoseWork {
 PoseWork take_pose_work(SequenceOptions& options);
 
 /// Estimates or refines the poses of a sequence that was opened without changes to its scans.
+/// @return what the user should know about the poses, as sentences, which are among the notes, too
 /// @throws UsageError for several topics, and for points in the world frame; DataError as
 ///   `odometry::estimate_poses`; Cancelled
-void make_poses(Sequence& sequence, PoseWork work, const OpenContext& context);
+std::vector<std::string> make_poses(Sequence& sequence, PoseWork work, const OpenContext& context);
 
 /// The poses of the frame of the stored points as a file that `--poses FILE` reads: TUM's format
 /// (`t x y z qx qy qz qw`). If the name ends in .kitti or _kitti.txt: KITTI's, 3 x 4 matrices by

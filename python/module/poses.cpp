@@ -18,21 +18,21 @@ namespace {
 
 /// @param refines whether the poses of the sequence are improved, else they are not used
 /// @param file for the poses; empty: none is written
-/// @return the poses, n x 4 x 4, and notes for the user
+/// @return the poses, n x 4 x 4, and warnings for the user
 std::pair<py::array_t<double>, std::vector<std::string>> make_poses_of(
     const HeldSequence& held, bool refines, const std::string& file, int threads,
     const py::object& on_progress) {
   Sequence sequence = *held.sequence;
-  sequence.notes.clear();
+  std::vector<std::string> warnings;
   run_interruptibly(on_progress, [&](const WorkContext& work) {
-    make_poses(sequence, refines ? PoseWork::kRefine : PoseWork::kEstimate,
-               {threads > 0 ? threads : hardware_threads(), work.progress, work.cancel});
+    warnings = make_poses(sequence, refines ? PoseWork::kRefine : PoseWork::kEstimate,
+                          {threads > 0 ? threads : hardware_threads(), work.progress, work.cancel});
     if (!file.empty()) write_atomically(file, pose_file_text(sequence, file));
   });
   for (const std::string& doubt : sequence.pose_doubts) {
-    sequence.notes.push_back("The poses may be wrong: " + doubt + ".");
+    warnings.push_back("The poses may be wrong: " + doubt + ".");
   }
-  return {array_of(sequence.made_poses), sequence.notes};
+  return {array_of(sequence.made_poses), warnings};
 }
 
 }  // namespace

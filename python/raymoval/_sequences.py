@@ -97,11 +97,10 @@ def _with_new_poses(sequence: _raymoval.Sequence, refines: bool,
                     file: Union[str, os.PathLike[str], None], threads: int,
                     progress: Progress) -> npt.NDArray[np.float64]:
     with told(progress) as on_progress:
-        poses, notes = _raymoval.make_poses(sequence, refines, "" if file is None else os.fspath(file),
-                                            threads, on_progress)
-    for note in notes:
-        if not note.startswith(("The poses are estimated", "The poses are refined")):
-            warnings.warn(note, stacklevel=3)
+        poses, cautions = _raymoval.make_poses(
+            sequence, refines, "" if file is None else os.fspath(file), threads, on_progress)
+    for text in cautions:
+        warnings.warn(text, stacklevel=3)
     return poses
 
 

@@ -264,6 +264,18 @@ TEST_CASE("a wrong motion beside vehicles is doubted", "[odometry]") {
   CHECK(doubts > 0);
 }
 
+TEST_CASE("a wrong first step is corrected by the scans after it", "[odometry]") {
+  // The sensor moves 0.6 m a scan, and the first motion is given as 0.4 m back.
+  FlatWorld world;
+  for (int i = 0; i < 10; ++i) {
+    world.scan(room({0.15, 0.15, 0.1}), pose_at(0.6 * i - 2.0, 0.0, 0.0), 0.1 * i);
+  }
+  MovingScans input{world};
+  input.scale = scale_of(world.load(5));
+  const Steps steps = odometry_of(input, {world.size(), pose_at(-0.4, 0.0, 0.0), true}, nullptr);
+  CHECK(error_of(steps.poses(), world) < 0.02);
+}
+
 TEST_CASE("a turn that is too fast is doubted", "[odometry]") {
   FlatWorld world;
   for (int i = 0; i < 10; ++i) {
