@@ -17,7 +17,7 @@ namespace {
 /// Of a scan that overlaps with the scans before it; scans of good estimates reach 0.16.
 constexpr double kLeastFit = 0.1;
 constexpr std::size_t kScansAtOnce = 8;
-constexpr std::size_t kFirstScans = 2, kScansAfter = 10;  // Registered again; in their map.
+constexpr std::size_t kFirstScans = 4, kScansAfter = 10;  // Registered again; in their map.
 constexpr double kStartReach = 0.5;                       // metres
 
 [[noreturn]] void throw_lost(const Steps& steps) {
@@ -45,13 +45,14 @@ Pose predicted_back(const std::vector<Pose>& poses, const std::vector<double>& t
 /// Registers the first scans again, the later first, to the scans after them, also from a guess.
 void register_start(const MovingScans& input, Steps& steps) {
   const std::size_t count = std::min(steps.scans.size(), kFirstScans + kScansAfter);
-  if (count < kFirstScans + 2) return;
+  const std::size_t first = std::min(kFirstScans, count / 2);
+  if (first < 2) return;
   std::vector<Pose> poses = steps.poses();
   PlaneMap map(input.scale.cell);
-  for (std::size_t i = kFirstScans; i < count; ++i) {
+  for (std::size_t i = first; i < count; ++i) {
     map.add(thinned(input, poses, steps.times, i).dense, poses[i]);
   }
-  for (std::size_t i = kFirstScans; i-- > 0;) {
+  for (std::size_t i = first; i-- > 0;) {
     const ThinnedScan thin = thinned(input, poses, steps.times, i);
     Registered best = register_to_map(map, thin.sparse, poses[i], kLeastReach);
     const Registered other =

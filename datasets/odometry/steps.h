@@ -56,8 +56,8 @@ struct Course {
   bool may_be_lost = false;  ///< Else a scan that does not overlap is an error.
 };
 
-/// Runs odometry over scans. Then the first two are registered again, to the scans after them: in
-/// the first step, the map has only one scan. Poses are relative to the first scan.
+/// Runs odometry over scans. Then the first four are registered again, to the scans after them:
+/// at first, the map has few scans. Poses are relative to the first scan.
 /// @param given null, or poses whose motions are a second guess
 /// @throws DataError naming a scan that is lost; or if a scan cannot be read. Cancelled
 Steps odometry_of(const MovingScans& input, const Course& course, const std::vector<Pose>* given);
