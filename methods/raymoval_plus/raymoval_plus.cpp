@@ -71,7 +71,7 @@ class Run {
           [&] { find_clusters(parameters_, beside_others_, scan); });  // 6
       if (parameters_.delay > 0.0) {
         look_up_verdicts(maps_, context_, scan);
-        count_points(scan);
+        count_points(maps_.standing, scan);
         recent.take(scan, maps_.standing, context_);
       }
       while (waiting.is_due()) answer_first();
@@ -104,6 +104,10 @@ class Run {
           located.scan = std::move(scan);
           find_terrain_cells(terrain_, parameters_, context, located);
           find_heights_and_cells(terrain_, maps_, parameters_, context, located);
+          thread_local std::unique_ptr<BeamImage> image;
+          image = std::make_unique<BeamImage>(scans_.sensor(), parameters_);
+          image->fill(located.scan);
+          image->find_extensions(located.extensions);
         },
         [&](LocatedScan& located, const RunContext& context) {
           add_to_maps(parameters_, context, located, maps_);
@@ -111,7 +115,7 @@ class Run {
   }
 
   void find_evidence() {
-    std::vector<RangeImage> images(scans_in_a_batch(scans_, context_), image_);
+    std::vector<BeamImage> images(scans_in_a_batch(scans_, context_), image_);
     std::vector<PosedImage> posed(images.size());
     for_scan_batches("raymoval_plus, evidence", scans_, context_, [&](std::span<Scan> batch) {
       fill_images(batch, images, posed);
@@ -129,12 +133,12 @@ class Run {
     }
   }
 
-  void fill_images(std::span<const Scan> batch, std::vector<RangeImage>& images,
+  void fill_images(std::span<const Scan> batch, std::vector<BeamImage>& images,
                    std::vector<PosedImage>& posed) const {
     const StageScope timed(context_.times, "range image");
     parallel_for(context_.threads, batch.size(), 1, [&](std::size_t i) {
       images[i].fill(batch[i]);
-      posed[i] = {&images[i], batch[i].T_world_sensor, batch[i].index};
+      posed[i] = {&images[i], batch[i].T_world_sensor.translation(), batch[i].index};
     });
   }
 
@@ -154,6 +158,7 @@ class Run {
                              "terrain and range image");
       side_by_side(context_, add_to_terrain, fill_image);
     }
+    image_.find_extensions(located.extensions);
     const bool is_due =
         located.scan.index % static_cast<std::size_t>(parameters_.terrain_period) == 0;
     if (parameters_.terrain && is_due) terrain_.update(context_);
@@ -163,13 +168,13 @@ class Run {
   /// Steps 2 to 4 for a scan that is read only once.
   void add_arrived(LocatedScan& located, WhenToDecide when) {
     const auto known = maps_.sizes();
-    const PosedImage posed{&image_, located.scan.T_world_sensor, located.scan.index};
+    const PosedImage posed{&image_, located.scan.T_world_sensor.translation(), located.scan.index};
     add_to_maps(parameters_, context_, located, maps_);                  // 2
-    ask_earlier_scans(known, posed.T_world_sensor.translation(), when);  // 3, 4
+    ask_earlier_scans(known, posed.position, when);  // 3, 4
     for (EvidenceMap* const map : maps_.both()) {
       add_evidence(std::span(&posed, 1), parameters_, when, context_, *map);  // 3, 4
     }
-    earlier_scans_.keep(std::move(image_), posed.T_world_sensor, posed.scan);
+    earlier_scans_.keep(std::move(image_), posed.scan);
   }
 
   /// Steps 3 and 4 for the voxels that were added since the maps had so many.
@@ -214,7 +219,7 @@ class Run {
   RunContext beside_others_ = for_one_of_many(context_);
   Terrain terrain_;
   EvidenceMaps maps_;
-  RangeImage image_;
+  BeamImage image_;
   EarlierScans earlier_scans_;
 };
 

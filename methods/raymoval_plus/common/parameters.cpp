@@ -92,6 +92,12 @@ void add_evidence(Lines& table) {
                 "Least half width of the window around a voxel.");
   table.integer("window_rows", &P::window_rows, "bins", 0, 60,
                 "Least half height of the window around a voxel.");
+  table.number("voxel_share", &P::voxel_share, "", 0, 1, "x");
+  table.number("object_score", &P::object_score, "", 0, 1, "x");
+  table.number("part_score", &P::part_score, "", 0, 1, "x");
+  table.number("firm_share", &P::firm_share, "", 0, 1, "x");
+  table.flag("whole", &P::whole, "x");
+  table.flag("lasting", &P::lasting, "x");
   table.number("agree_constant", &P::agree_constant, "m", 0, 5,
                "A return this near to the voxel's range supports the voxel. In tracks, the length "
                "of an object is increased by twice this.");

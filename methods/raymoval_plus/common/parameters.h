@@ -34,6 +34,12 @@ struct Parameters {
   double elevation_bin = 0.0;
   int window_columns = 1;
   int window_rows = 2;
+  double voxel_share = 0.5;
+  double object_score = 0.15;
+  double part_score = 0.3;
+  double firm_share = 0.2;
+  bool whole = false;
+  bool lasting = false;
   double agree_constant = 0.2;
   double agree_slope = 0.005;
   double occluded_constant = 0.25;

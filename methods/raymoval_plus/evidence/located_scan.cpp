@@ -142,6 +142,12 @@ void add_to_maps(const Parameters& parameters, const RunContext& context, Locate
       add_some<GroundPoints>(begin, end, parameters, scan, maps.ground, ground);
     }
   }
+  for (const BeamImage::Extension& extension : scan.extensions) {
+    const std::size_t k = extension.point;
+    if (scan.voxel[k] != EvidenceMap::kNone) {
+      maps.standing.add_beside(scan.voxel[k], scan.in_map.parts[k], extension.offset);
+    }
+  }
 }
 
 void correct_voxels(const Parameters& parameters, const RunContext& context, LocatedScan& scan,

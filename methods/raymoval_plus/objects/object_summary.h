@@ -24,6 +24,9 @@ struct ObjectSummary {
   double first_agree = 0.0, last_agree = 0.0;
   int points = 0;
   int dynamic = 0;            ///< How many points are dynamic.
+  int firm = 0;
+  float score = 0.0F;
+  bool is_part = false;
   bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.
   bool is_undivided = false;  ///< It was divided, and so stands beside what it was divided into.
   int cluster = 0;            ///< Number within its scan.
@@ -35,7 +38,9 @@ struct ObjectSummary {
 /// its points dynamic.
 template <class Thing>
 bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
-  return thing.is_whole || thing.dynamic >= parameters.object_dynamic_share * thing.points;
+  const double share = thing.is_part ? parameters.part_score : parameters.object_score;
+  return thing.firm <= parameters.firm_share * thing.points &&
+         static_cast<double>(thing.score) >= share * thing.points;
 }
 
 /// Whether an object is one dynamic thing and has enough dynamic points for its track to take it

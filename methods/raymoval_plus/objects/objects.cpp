@@ -54,7 +54,9 @@ std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& par
 
 /// Whether a cluster has many dynamic points, but too few to be one dynamic thing.
 bool is_mixed(const Cluster& cluster, const Parameters& parameters) {
-  return cluster.dynamic >= parameters.group_points && !is_one_dynamic_thing(cluster, parameters);
+  if (is_one_dynamic_thing(cluster, parameters)) return false;
+  return cluster.dynamic >= parameters.group_points ||
+         static_cast<double>(cluster.score) >= parameters.object_score * cluster.points;
 }
 
 /// Finds the mixed clusters that are one thing.
@@ -80,7 +82,7 @@ void add_undivided(const std::vector<Cluster>& whole, const std::vector<std::siz
     if (scan.clusters[from].undivided < 0) {
       scan.clusters[from].undivided = static_cast<int>(scan.clusters.size());
       scan.clusters.push_back(
-          {.points = whole[from].points, .dynamic = whole[from].dynamic, .is_undivided = true});
+          {.points = whole[from].points, .dynamic = whole[from].dynamic, .firm = whole[from].firm, .score = whole[from].score, .is_undivided = true});
     }
     scan.clusters[whole.size() + part].undivided = scan.clusters[from].undivided;
   }
@@ -91,7 +93,7 @@ void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
                            SegmentedScan& scan) {
   const auto is_left_over = [&](std::size_t k, const Cluster& cluster) {
     if (!is_mixed(cluster, parameters)) return false;
-    return scan.verdict[k] == Verdict::kDynamic || !is_settled(scan.voxel[k], map, parameters);
+    return scan.voxel[k] == EvidenceMap::kNone || !is_firm(map.evidence(scan.voxel[k]));
   };
   const std::vector<int> parts = clusters_among(scan, parameters, is_left_over);
   const std::vector<Cluster> whole = scan.clusters;
@@ -106,7 +108,7 @@ void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
   for (const std::size_t from : divided) {
     scan.clusters.push_back({.is_part = true, .is_hardly_dynamic = whole[from].is_hardly_dynamic});
   }
-  count_points(scan);
+  count_points(map, scan);
   add_undivided(whole, divided, scan);
 }
 
@@ -194,7 +196,7 @@ std::vector<std::uint8_t> dynamic_clusters(const SegmentedScan& scan,
   for (std::size_t c = 0; c < go.size(); ++c) {
     const Cluster& cluster = scan.clusters[c];
     const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
-    go[c] = is_marked[c] == 0 && !cluster.is_undivided && cluster.dynamic >= enough &&
+    go[c] = is_marked[c] == 0 && !cluster.is_undivided && cluster.points >= enough &&
             is_one_dynamic_thing(cluster, parameters);
   }
   return go;
@@ -239,12 +241,20 @@ void find_clusters(const Parameters& parameters, const RunContext& context, Segm
   scan.clusters.resize(number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end()));
 }
 
-void count_points(SegmentedScan& scan) {
-  for (Cluster& cluster : scan.clusters) cluster.points = cluster.dynamic = 0;
+void count_points(const EvidenceMap& map, SegmentedScan& scan) {
+  for (Cluster& cluster : scan.clusters) {
+    cluster.points = cluster.dynamic = cluster.firm = 0;
+    cluster.score = 0.0F;
+  }
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
     ++cluster.points;
-    if (scan.verdict[scan.high_points[i]] == Verdict::kDynamic) ++cluster.dynamic;
+    const std::uint32_t k = scan.high_points[i];
+    if (scan.verdict[k] == Verdict::kDynamic) ++cluster.dynamic;
+    if (!scan.has_standing_voxel(k)) continue;
+    const VoxelEvidence& evidence = map.evidence(scan.voxel[k]);
+    cluster.score += contradiction(evidence);
+    if (is_firm(evidence)) ++cluster.firm;
   }
 }
 
@@ -252,12 +262,12 @@ void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
                      const RunContext& context, SegmentedScan& scan) {
   if (!parameters.objects) return;
   const StageScope timed(context.times, "objects");
-  count_points(scan);
+  count_points(map, scan);
   for (Cluster& cluster : scan.clusters) {
     cluster.is_hardly_dynamic = cluster.dynamic <= parameters.object_static_share * cluster.points;
   }
   if (parameters.settled_scans == 0) return;
-  find_whole_clusters(map, parameters, scan);
+  if (parameters.whole) find_whole_clusters(map, parameters, scan);
   divide_mixed_clusters(map, parameters, scan);
 }
 
@@ -286,6 +296,9 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     ObjectSummary& object = objects[c];
     object.points = scan.clusters[c].points;
     object.dynamic = scan.clusters[c].dynamic;
+    object.firm = scan.clusters[c].firm;
+    object.score = scan.clusters[c].score;
+    object.is_part = scan.clusters[c].is_part;
     object.is_whole = scan.clusters[c].is_whole;
     object.is_undivided = scan.clusters[c].is_undivided;
     if (follow[c] == 0 || object.width() > parameters.track_width) continue;
@@ -316,7 +329,7 @@ Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
     const auto number = static_cast<std::size_t>(scan.cluster_of[i]);
     const bool is_hardly_dynamic = scan.clusters[number].is_hardly_dynamic;
     if (go[number] != 0) {
-      verdict[scan.high_points[i]] = lasting[i] != 0 ? Verdict::kStatic : Verdict::kDynamic;
+      verdict[scan.high_points[i]] = parameters.lasting && lasting[i] != 0 ? Verdict::kStatic : Verdict::kDynamic;
     } else if (spared[i] == 0 && is_hardly_dynamic) {
       verdict[scan.high_points[i]] = Verdict::kStatic;
     }

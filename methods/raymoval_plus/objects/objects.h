@@ -16,6 +16,8 @@ using Verdicts = std::vector<Verdict>;  ///< One for each point of a scan.
 struct Cluster {
   int points = 0;
   int dynamic = 0;  ///< How many of these are dynamic.
+  int firm = 0;
+  float score = 0.0F;
   /// What stands against a wall is one cluster with it. Such a cluster is divided: the points of
   /// voxels that many scans agree with stay in it, and the others make parts of their own.
   bool is_part = false;
@@ -49,7 +51,7 @@ void for_clusters_of(const SegmentedScan& scan, std::size_t n, Visit&& visit) {
 /// Step 6: finds the clusters. The verdicts need not be known yet.
 void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan);
 /// Counts the points of the clusters, and what is dynamic in them.
-void count_points(SegmentedScan& scan);
+void count_points(const EvidenceMap& map, SegmentedScan& scan);
 /// Step 6: counts what is dynamic in the clusters, and divides those that are mixed. Of what was
 /// divided a cluster more tells what it was.
 void divide_clusters(const EvidenceMap& map, const Parameters& parameters,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/objects/point_evidence.h"
 
+#include "methods/raymoval_plus/evidence/evidence.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -33,14 +35,8 @@ float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps
 
 }  // namespace
 
-float free_share(const VoxelEvidence& evidence, const Parameters& parameters) {
-  const auto needed = static_cast<float>(parameters.free_constant +
-                                         parameters.free_per_agree * evidence.agree_scans);
-  const auto free = static_cast<float>(evidence.free_scans);
-  const float by_count = free > 0.0F ? free / (free + needed) : 0.0F;
-  if (parameters.run_scans == 0) return by_count;
-  const auto run = static_cast<float>(std::max(evidence.leading_free, evidence.trailing_free));
-  return std::max(by_count, run / (run + static_cast<float>(parameters.run_scans)));
+float free_share(const VoxelEvidence& evidence, const Parameters&) {
+  return contradiction(evidence);
 }
 
 std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "methods/raymoval_plus/evidence/beam_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/angle.h"
+
+namespace raymoval::raymoval_plus_method {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr double kUnknownStep = 0.2 * kDegree;
+constexpr double kMarginRows = 2.0;
+constexpr double kLeastRow = 0.01 * kDegree, kFewestColumns = 90.0, kMostColumns = 7200.0;
+constexpr int kMostBins = 4'000'000;
+constexpr int kBlockShift = 3;
+/// Squares of the distances from a voxel's mean, in standard deviations, up to which a beam crosses
+/// it and up to which one that ends there hits it.
+constexpr float kCrosses = 1.0F, kMeets = 3.0F;
+
+/// Beams so far apart leave gaps on surfaces that are filled, metres.
+constexpr float kLeastGap = 0.1F, kMostGap = 1.5F;
+
+/// Angle of a direction, radians. Abramowitz and Stegun, 4.4.49; error below 1e-5.
+float arc_tangent(float y, float x) {
+  const float a = std::abs(x), b = std::abs(y), most = std::max(a, b);
+  const float q = most > 0.0F ? std::min(a, b) / most : 0.0F, s = q * q;
+  float angle = q * (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
+  angle = b > a ? 0.5F * kPi - angle : angle;
+  angle = x < 0.0F ? kPi - angle : angle;
+  return y < 0.0F ? -angle : angle;
+}
+
+}  // namespace
+
+BeamImage::BeamImage(const SensorModel& sensor, const Parameters& parameters)
+    : range_min_(static_cast<float>(parameters.evidence_range_min)),
+      range_max_(static_cast<float>(parameters.evidence_range_max)),
+      hit_{static_cast<float>(parameters.agree_constant), static_cast<float>(parameters.agree_slope)},
+      pass_{static_cast<float>(parameters.occluded_constant), static_cast<float>(parameters.occluded_slope)},
+      nearest_(static_cast<float>(parameters.minimum_range)) {
+  const double width = sensor.azimuth_step > 0.0 ? sensor.azimuth_step : kUnknownStep;
+  const double height = std::max(sensor.elevation_step > 0.0 ? 0.5 * sensor.elevation_step : kUnknownStep, kLeastRow);
+  columns_ = static_cast<int>(std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
+  azimuth_step_ = 2.0F * kPi / static_cast<float>(columns_);
+  const double low = std::max(sensor.elevation_min - kMarginRows * height, -std::numbers::pi / 2.0);
+  const double high = std::min(sensor.elevation_max + kMarginRows * height, std::numbers::pi / 2.0);
+  rows_ = static_cast<int>(std::clamp(std::ceil((high - low) / height), 1.0, static_cast<double>(kMostBins / columns_)));
+  elevation_step_ = static_cast<float>((high - low) / rows_);
+  lowest_ = static_cast<float>(low);
+  block_columns_ = (columns_ >> kBlockShift) + 1;
+}
+
+float BeamImage::azimuth_bin(const Eigen::Vector3f& p) const {
+  return (arc_tangent(p.y(), p.x()) + kPi) / azimuth_step_;
+}
+
+float BeamImage::elevation_bin(const Eigen::Vector3f& p, float flat) const {
+  return (arc_tangent(p.z(), flat) - lowest_) / elevation_step_;
+}
+
+void BeamImage::fill(const Scan& scan) {
+  const Eigen::Matrix3f R_world_sensor = scan.T_world_sensor.linear().cast<float>();
+  R_sensor_world_ = R_world_sensor.transpose();
+  position_ = scan.T_world_sensor.translation();
+  first_.assign(size() + 1, 0);
+  bin_of_.resize(scan.size());
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const Eigen::Vector3f& p = scan.points[k];
+    const float flat = std::sqrt(p.x() * p.x() + p.y() * p.y());
+    const int row = static_cast<int>(std::floor(elevation_bin(p, flat)));
+    const int column = std::clamp(static_cast<int>(azimuth_bin(p)), 0, columns_ - 1);
+    const bool is_beam = row >= 0 && row < rows_ && p.squaredNorm() >= nearest_ * nearest_;
+    bin_of_[k] = is_beam ? row * columns_ + column : -1;
+    if (is_beam) ++first_[static_cast<std::size_t>(bin_of_[k]) + 1];
+  }
+  for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
+  beams_.resize(first_.back());
+  for (std::size_t k = scan.size(); k-- > 0;) {
+    if (bin_of_[k] < 0) continue;
+    const float range = scan.points[k].norm();
+    const Eigen::Vector3f direction = R_world_sensor * scan.points[k] / range;
+    beams_[--first_[static_cast<std::size_t>(bin_of_[k]) + 1]] = {direction.x(), direction.y(), direction.z(), range, static_cast<std::uint32_t>(k)};
+  }
+  // Now `first_[b + 1]` is the first beam of bin b.
+  for (std::size_t b = 0; b + 1 < first_.size(); ++b) first_[b] = first_[b + 1];
+  first_.back() = static_cast<std::uint32_t>(beams_.size());
+  find_farthest();
+}
+
+void BeamImage::find_extensions(std::vector<Extension>& extensions) const {
+  extensions.clear();
+  const auto position = [](const Beam& b) { return Eigen::Vector3f(b.x * b.range, b.y * b.range, b.z * b.range); };
+  const auto wrapped = [&](int c) { return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c; };
+  static constexpr int kStepRow[4] = {1, -1, 0, 0}, kStepColumn[4] = {0, 0, 1, -1};
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < columns_; ++c) {
+      for (const Beam& beam : beams(r, c, c)) {
+        const Eigen::Vector3f p = position(beam);
+        for (int n = 0; n < 4; ++n) {
+          const float step = n < 2 ? 2.0F * elevation_step_ : azimuth_step_;
+          if (step * beam.range < kLeastGap) continue;
+          bool found = false;
+          for (int i = 1; i <= (n < 2 ? 3 : 2) && !found; ++i) {
+            const int row = r + i * kStepRow[n];
+            if (row < 0 || row >= rows_) break;
+            for (int side = 0; side < (n < 2 ? 3 : 1) && !found; ++side) {
+              const int column = wrapped(c + i * kStepColumn[n] + (side == 2 ? -1 : side));
+              const std::span<const Beam> others = beams(row, column, column);
+              if (others.empty()) continue;
+              found = true;
+              const Eigen::Vector3f offset = position(others.front()) - p;
+              const float deeper = std::abs(others.front().range - beam.range);
+              const float aside = std::sqrt(std::max(offset.squaredNorm() - deeper * deeper, 0.0F));
+              if (aside < kLeastGap || aside > kMostGap || deeper > std::min(aside + 0.2F, 1.0F)) break;
+              extensions.push_back({beam.point, offset / 3.0F});
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+void BeamImage::find_farthest() {
+  farthest_.assign(static_cast<std::size_t>((rows_ >> kBlockShift) + 1) * static_cast<std::size_t>(block_columns_), 0.0F);
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < columns_; ++c) {
+      float& farthest = farthest_[static_cast<std::size_t>((r >> kBlockShift) * block_columns_ + (c >> kBlockShift))];
+      for (const Beam& beam : beams(r, c, c)) farthest = std::max(farthest, beam.range);
+    }
+  }
+}
+
+std::span<const BeamImage::Beam> BeamImage::beams(int row, int first_column, int last_column) const {
+  const auto bin = [&](int column) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column); };
+  const std::uint32_t begin = first_[bin(first_column)], end = first_[bin(last_column) + 1];
+  return {beams_.data() + begin, end - begin};
+}
+
+bool BeamImage::is_hidden(int first_row, int last_row, int first_column, int last_column, float range) const {
+  const auto wrapped = [&](int c) { return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c; };
+  for (int r = first_row >> kBlockShift; r <= last_row >> kBlockShift; ++r) {
+    for (int c = first_column; ; c = std::min(c + (1 << kBlockShift), last_column)) {
+      if (farthest_[static_cast<std::size_t>(r * block_columns_ + (wrapped(c) >> kBlockShift))] >= range) return false;
+      if (c == last_column) break;
+    }
+  }
+  return true;
+}
+
+void BeamImage::observe(std::span<const float> places, std::span<const VoxelShape> shapes,
+                        const Eigen::Vector3d& origin, std::vector<ObservedVoxel>& observed) const {
+  observed.clear();
+  const Eigen::Vector3f from = (origin - position_).cast<float>();
+  for (std::size_t v = 0; v < shapes.size(); ++v) {
+    const Eigen::Vector3f m = from + Eigen::Vector3f(places[3 * v], places[3 * v + 1], places[3 * v + 2]);
+    const float square = m.squaredNorm();
+    if (square < range_min_ * range_min_ || square > range_max_ * range_max_) continue;
+    const float range = std::sqrt(square);
+    const VoxelShape& shape = shapes[v];
+    const Eigen::Vector3f s = R_sensor_world_ * m;
+    const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
+    const float half = shape.radius / range;
+    const float row = elevation_bin(s, flat), high = half / elevation_step_;
+    if (row + high < 0.0F || row - high >= static_cast<float>(rows_)) continue;
+    const int row0 = std::max(static_cast<int>(std::floor(row - high)), 0);
+    const int row1 = std::min(static_cast<int>(std::floor(row + high)), rows_ - 1);
+    const float column = azimuth_bin(s);
+    const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_, 0.25F * static_cast<float>(columns_));
+    const int column0 = static_cast<int>(std::floor(column - wide));
+    const int column1 = static_cast<int>(std::floor(column + wide));
+    const float hit = hit_[0] + hit_[1] * range, pass = pass_[0] + pass_[1] * range;
+    if (is_hidden(row0, row1, column0, column1, range - hit)) continue;
+    const Eigen::Vector3f w(shape.xx * m.x() + shape.xy * m.y() + shape.xz * m.z(),
+                            shape.xy * m.x() + shape.yy * m.y() + shape.yz * m.z(),
+                            shape.xz * m.x() + shape.yz * m.y() + shape.zz * m.z());
+    const float away = w.dot(m);
+    bool is_hit = false, is_passed = false;
+    const auto test = [&](std::span<const Beam> some) {
+      for (const Beam& b : some) {
+        if (b.range < range - hit - shape.radius) continue;
+        const float along = b.x * w.x() + b.y * w.y() + b.z * w.z();
+        const float norm = shape.xx * b.x * b.x + shape.yy * b.y * b.y + shape.zz * b.z * b.z +
+                           2.0F * (shape.xy * b.x * b.y + shape.xz * b.x * b.z + shape.yz * b.y * b.z);
+        const float aside = away - along * along / norm;
+        if (aside > kMeets) continue;
+        const float behind = b.range - along / norm;
+        if (std::abs(behind) <= hit) is_hit = true;
+        else if (behind > pass && aside <= kCrosses) is_passed = true;
+      }
+    };
+    for (int r = row0; r <= row1 && !is_hit; ++r) {
+      if (column0 < 0) {
+        test(beams(r, 0, column1));
+        test(beams(r, column0 + columns_, columns_ - 1));
+      } else if (column1 >= columns_) {
+        test(beams(r, column0, columns_ - 1));
+        test(beams(r, 0, column1 - columns_));
+      } else {
+        test(beams(r, column0, column1));
+      }
+    }
+    if (is_hit || is_passed) observed.push_back({static_cast<std::uint32_t>(v), is_hit ? Observation::kHit : Observation::kPassed, range});
+  }
+}
+
+}  // namespace raymoval::raymoval_plus_method
