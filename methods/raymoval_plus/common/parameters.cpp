@@ -96,6 +96,10 @@ void add_evidence(Lines& table) {
   table.number("object_score", &P::object_score, "", 0, 1, "x");
   table.number("part_score", &P::part_score, "", 0, 1, "x");
   table.number("firm_share", &P::firm_share, "", 0, 1, "x");
+  table.flag("soft", &P::soft, "x");
+  table.number("soft_gap", &P::soft_gap, "", 0, 9, "x");
+  table.number("soft_times", &P::soft_times, "", 0, 99, "x");
+  table.number("sure_score", &P::sure_score, "", 0, 99, "x");
   table.flag("whole", &P::whole, "x");
   table.flag("lasting", &P::lasting, "x");
   table.number("agree_constant", &P::agree_constant, "m", 0, 5,

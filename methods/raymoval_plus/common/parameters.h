@@ -34,11 +34,15 @@ struct Parameters {
   double elevation_bin = 0.0;
   int window_columns = 1;
   int window_rows = 2;
-  double voxel_share = 0.5;
-  double object_score = 0.15;
+  double voxel_share = 0.35;
+  double object_score = 0.1;
   double part_score = 0.3;
   double firm_share = 0.2;
   bool whole = false;
+  bool soft = true;
+  double soft_gap = 0.3;
+  double sure_score = 0.4;
+  double soft_times = 1.5;
   bool lasting = false;
   double agree_constant = 0.2;
   double agree_slope = 0.005;

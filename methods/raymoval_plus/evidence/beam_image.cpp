@@ -40,7 +40,7 @@ BeamImage::BeamImage(const SensorModel& sensor, const Parameters& parameters)
       range_max_(static_cast<float>(parameters.evidence_range_max)),
       hit_{static_cast<float>(parameters.agree_constant), static_cast<float>(parameters.agree_slope)},
       pass_{static_cast<float>(parameters.occluded_constant), static_cast<float>(parameters.occluded_slope)},
-      nearest_(static_cast<float>(parameters.minimum_range)) {
+      nearest_(static_cast<float>(parameters.minimum_range)), soft_(parameters.soft), soft_times_(static_cast<float>(parameters.soft_times)), soft_gap_(static_cast<float>(parameters.soft_gap)) {
   const double width = sensor.azimuth_step > 0.0 ? sensor.azimuth_step : kUnknownStep;
   const double height = std::max(sensor.elevation_step > 0.0 ? 0.5 * sensor.elevation_step : kUnknownStep, kLeastRow);
   columns_ = static_cast<int>(std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
@@ -151,6 +151,22 @@ bool BeamImage::is_hidden(int first_row, int last_row, int first_column, int las
   return true;
 }
 
+bool BeamImage::is_open(float row, float column, float range) const {
+  const auto wrapped = [&](int c) { return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c; };
+  const int c0 = static_cast<int>(std::floor(column)), r0 = static_cast<int>(std::floor(row));
+  bool above = false, below = false;
+  for (int r = std::max(r0 - 2, 0); r <= std::min(r0 + 2, rows_ - 1); ++r) {
+    for (int c = c0 - 1; c <= c0 + 1; ++c) {
+      for (const Beam& b : beams(r, wrapped(c), wrapped(c))) {
+        if (b.range < range) return false;
+        above |= r >= r0;
+        below |= r <= r0;
+      }
+    }
+  }
+  return above && below;
+}
+
 void BeamImage::observe(std::span<const float> places, std::span<const VoxelShape> shapes,
                         const Eigen::Vector3d& origin, std::vector<ObservedVoxel>& observed) const {
   observed.clear();
@@ -178,7 +194,7 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
                             shape.xy * m.x() + shape.yy * m.y() + shape.yz * m.z(),
                             shape.xz * m.x() + shape.yz * m.y() + shape.zz * m.z());
     const float away = w.dot(m);
-    bool is_hit = false, is_passed = false;
+    bool is_hit = false, is_passed = false, is_crossed = false;
     const auto test = [&](std::span<const Beam> some) {
       for (const Beam& b : some) {
         if (b.range < range - hit - shape.radius) continue;
@@ -187,6 +203,7 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
                            2.0F * (shape.xy * b.x * b.y + shape.xz * b.x * b.z + shape.yz * b.y * b.z);
         const float aside = away - along * along / norm;
         if (aside > kMeets) continue;
+        is_crossed = true;
         const float behind = b.range - along / norm;
         if (std::abs(behind) <= hit) is_hit = true;
         else if (behind > pass && aside <= kCrosses) is_passed = true;
@@ -202,6 +219,9 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
       } else {
         test(beams(r, column0, column1));
       }
+    }
+    if (!is_crossed && soft_ && range <= soft_times_ * shape.nearest && 2.0F * elevation_step_ * range > soft_gap_) {
+      if (is_open(row, column, range + pass)) observed.push_back({static_cast<std::uint32_t>(v), Observation::kOpen, range});
     }
     if (is_hit || is_passed) observed.push_back({static_cast<std::uint32_t>(v), is_hit ? Observation::kHit : Observation::kPassed, range});
   }

@@ -12,12 +12,13 @@
 namespace raymoval::raymoval_plus_method {
 
 /// What one scan says of a voxel.
-enum class Observation : std::uint8_t { kUnknown, kHit, kPassed };
+enum class Observation : std::uint8_t { kUnknown, kHit, kPassed, kOpen };
 
 /// The distribution of a voxel's points: their mean is where the voxel is, and this is the inverse
 /// of their covariance, 1/m^2, axes of the world.
 struct VoxelShape {
   float xx = 0.0F, yy = 0.0F, zz = 0.0F, xy = 0.0F, xz = 0.0F, yz = 0.0F;
+  float nearest = 0.0F;  ///< Range from which it was seen at least, metres.
   float radius = 0.0F;  ///< At most one standard deviation in any direction, metres.
 };
 
@@ -70,11 +71,14 @@ class BeamImage {
   [[nodiscard]] std::span<const Beam> beams(int row, int first_column, int last_column) const;
   [[nodiscard]] bool is_hidden(int first_row, int last_row, int first_column, int last_column,
                                float range) const;
+  [[nodiscard]] bool is_open(float row, float column, float range) const;
   void find_farthest();
 
   int rows_ = 0, columns_ = 0, block_columns_ = 0;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F, lowest_ = 0.0F;
   float range_min_, range_max_, hit_[2], pass_[2], nearest_;
+  bool soft_;
+  float soft_times_, soft_gap_;
   Eigen::Matrix3f R_sensor_world_ = Eigen::Matrix3f::Identity();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> first_;  ///< Of each bin in `beams_`, and one more.

@@ -17,6 +17,7 @@ constexpr std::size_t kVoxelsATask = 256;
 
 /// Hits count up to this number, so that what stood for long and left can be told.
 constexpr int kMostHits = 10;
+const int kFewHits = getenv("FEWH") ? atoi(getenv("FEWH")) : 3;
 
 /// The tiles that any of the scans may say something of.
 std::vector<std::uint32_t> tiles_near(std::span<const PosedImage> images, double range,
@@ -109,17 +110,20 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
     evidence.last_agree = static_cast<std::uint32_t>(scan);
     if (evidence.agree_scans == 0) evidence.first_agree = evidence.last_agree;
     count_up(evidence.agree_scans);
-    evidence.trailing_free = 0;
+    evidence.trailing_free = evidence.trailing_open = 0;
   } else if (observation == Observation::kPassed) {
     count_up(evidence.free_scans);
     count_up(evidence.trailing_free);
     if (evidence.agree_scans == 0) count_up(evidence.leading_free);
+  } else if (observation == Observation::kOpen) {
+    count_up(evidence.agree_scans == 0 ? evidence.leading_open : evidence.trailing_open);
   }
 }
 
 float contradiction(const VoxelEvidence& evidence) {
   const bool is_hit = evidence.agree_scans > 0;
-  const float outside = static_cast<float>(evidence.leading_free) + (is_hit ? static_cast<float>(evidence.trailing_free) : 0.0F);
+  float outside = static_cast<float>(evidence.leading_free) + (is_hit ? static_cast<float>(evidence.trailing_free) : 0.0F);
+  if (evidence.agree_scans <= kFewHits) outside += static_cast<float>(evidence.leading_open + evidence.trailing_open);
   return outside / (outside + static_cast<float>(std::min<int>(evidence.agree_scans, kMostHits)) + 1.0F);
 }
 

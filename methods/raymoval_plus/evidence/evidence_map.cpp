@@ -105,7 +105,7 @@ VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   const Eigen::Matrix3f inverse = covariance.inverse().cast<float>();
   const double radius = std::sqrt(covariance.cwiseAbs().rowwise().sum().maxCoeff());
   return {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(0, 2), inverse(1, 2),
-          static_cast<float>(radius)};
+          sums.nearest, static_cast<float>(radius)};
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

@@ -21,6 +21,7 @@ struct VoxelEvidence {
   /// Scans that saw through it from near by, before the first scan that agrees and since the last
   /// one, without those beside all of its column.
   std::uint16_t leading_free = 0, trailing_free = 0;
+  std::uint16_t leading_open = 0, trailing_open = 0;
   /// The numbers of the first and of the last scan that agree, if any does.
   std::uint32_t first_agree = 0, last_agree = 0;
 };
@@ -60,6 +61,7 @@ class EvidenceMap {
   }
   void add_point(std::uint32_t voxel, std::uint32_t parts);
   /// Adds a place that may be outside of the voxel. @param offset from a point, metres
+  void see_from(std::uint32_t voxel, float range) { sums_[voxel].nearest = std::min(sums_[voxel].nearest, range); }
   void add_beside(std::uint32_t voxel, std::uint32_t parts, const Eigen::Vector3f& offset);
   void add_sample(std::uint32_t voxel, int x, int y, int z);
   void expect_slot(std::size_t slot) const {
@@ -142,6 +144,7 @@ class EvidenceMap {
   std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
   struct Sums {
+    float nearest = 1e9F;
     std::int32_t x = 0, y = 0, z = 0, count = 0;
     std::int64_t xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< Of their products.
   };

@@ -65,6 +65,7 @@ void add_some(std::size_t begin, std::size_t end, const Parameters& parameters, 
   for (std::size_t i = 0; i < some.count; ++i) {
     const std::size_t k = some.point[i];
     map.add_point(Kind::voxels(scan)[k], Kind::parts(scan, k));
+    map.see_from(Kind::voxels(scan)[k], scan.scan.points[k].norm());
   }
 }
 
@@ -78,6 +79,7 @@ void correct_some(const Parameters& parameters, LocatedScan& scan, EvidenceMap& 
       voxels[k] = EvidenceMap::kNone;
     } else if (voxels[k] == EvidenceMap::kNone) {
       voxels[k] = map.add(Kind::cell(scan, k), Kind::parts(scan, k), cursor);
+      map.see_from(voxels[k], scan.scan.points[k].norm());
     }
   }
 }

@@ -40,7 +40,9 @@ template <class Thing>
 bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
   const double share = thing.is_part ? parameters.part_score : parameters.object_score;
   return thing.firm <= parameters.firm_share * thing.points &&
-         static_cast<double>(thing.score) >= share * thing.points;
+         (static_cast<double>(thing.score) >= parameters.sure_score * thing.points ||
+          (static_cast<double>(thing.score) >= share * thing.points &&
+           thing.dynamic >= parameters.object_dynamic_share * thing.points));
 }
 
 /// Whether an object is one dynamic thing and has enough dynamic points for its track to take it
