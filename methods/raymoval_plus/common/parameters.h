@@ -67,7 +67,7 @@ struct Parameters {
   double object_height = 0.3;
   double cluster_gap = 0.3;
   double cluster_growth = 0.01;
-  double object_dynamic_share = 0.5;
+  double object_dynamic_share = 0.3;
   double object_static_share = 0.1;
   int object_points = 3;
   int group_points = 20;

@@ -195,6 +195,12 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
                             shape.xz * m.x() + shape.yz * m.y() + shape.zz * m.z());
     const float away = w.dot(m);
     bool is_hit = false, is_passed = false, is_crossed = false;
+    const float plane = shape.nx * m.x() + shape.ny * m.y() + shape.nz * m.z();
+    const auto ends_behind = [&](const Beam& b) {
+      if (shape.behind == 0.0F) return true;
+      const float end = b.range * (shape.nx * b.x + shape.ny * b.y + shape.nz * b.z) - plane;
+      return plane > 0.0F ? end > shape.behind : end < -shape.behind;
+    };
     const auto test = [&](std::span<const Beam> some) {
       for (const Beam& b : some) {
         if (b.range < range - hit - shape.radius) continue;
@@ -206,7 +212,7 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
         is_crossed = true;
         const float behind = b.range - along / norm;
         if (std::abs(behind) <= hit) is_hit = true;
-        else if (behind > pass && aside <= kCrosses) is_passed = true;
+        else if (behind > pass && aside <= kCrosses && ends_behind(b)) is_passed = true;
       }
     };
     for (int r = row0; r <= row1 && !is_hit; ++r) {

@@ -19,6 +19,8 @@ enum class Observation : std::uint8_t { kUnknown, kHit, kPassed, kOpen };
 struct VoxelShape {
   float xx = 0.0F, yy = 0.0F, zz = 0.0F, xy = 0.0F, xz = 0.0F, yz = 0.0F;
   float nearest = 0.0F;  ///< Range from which it was seen at least, metres.
+  /// Of a flat voxel: the normal, and how far behind its plane a beam must end to pass, metres; 0 for others.
+  float nx = 0.0F, ny = 0.0F, nz = 0.0F, behind = 0.0F;
   float radius = 0.0F;  ///< At most one standard deviation in any direction, metres.
 };
 

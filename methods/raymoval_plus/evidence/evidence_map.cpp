@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -102,10 +103,18 @@ VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   covariance << d(sums.xx), d(sums.xy), d(sums.xz), d(sums.xy), d(sums.yy), d(sums.yz), d(sums.xz), d(sums.yz), d(sums.zz);
   covariance = (covariance * n - mean * mean.transpose()) * (scale * scale);
   covariance.diagonal().array() += kLeastDeviation * kLeastDeviation;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(covariance);
+  const Eigen::Vector3d deviations = axes.eigenvalues().cwiseMax(1e-6).cwiseSqrt();
+  static const double kFlat = getenv("FLAT") ? atof(getenv("FLAT")) : 0.7;
+  static const double kBehind = getenv("BEH") ? atof(getenv("BEH")) : 0.1;
+  const bool is_flat = size_ < 0.3 && deviations[0] < kFlat * deviations[1];
+  const Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
+  const float behind = is_flat ? static_cast<float>(kBehind + deviations[0]) : 0.0F;
   const Eigen::Matrix3f inverse = covariance.inverse().cast<float>();
   const double radius = std::sqrt(covariance.cwiseAbs().rowwise().sum().maxCoeff());
   return {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(0, 2), inverse(1, 2),
-          sums.nearest, static_cast<float>(radius)};
+          sums.nearest, normal.x(), normal.y(), normal.z(), behind, static_cast<float>(radius)};
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

@@ -121,8 +121,8 @@ bool is_explained_by_stay(const ObjectSummary& object, const Stay& stay) {
 
 /// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
 bool came_or_leaves(const Track& track, const Parameters& parameters) {
-  return dynamic_objects(track, parameters) >=
-         parameters.track_dynamic_share * static_cast<double>(track.nodes.size());
+  static const double kCame = getenv("CAME") ? atof(getenv("CAME")) : 0.25;
+  return dynamic_objects(track, parameters) >= kCame * static_cast<double>(track.nodes.size());
 }
 
 /// How the object of a track goes.
@@ -179,12 +179,14 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
 bool belongs(const Track& track, std::size_t at, const Journey& journey,
              const Parameters& parameters) {
   const ObjectSummary& object = track.nodes[at].object;
-  if (journey.motion && is_explained(object, *journey.motion, parameters)) return true;
-  if (object.width() > journey.widest) return false;
   // What came or leaves, and stands else, is in one place all the time.
   const Stay stay =
       journey.motion ? stay_of(track, at) : stay_between(track.nodes.front(), track.nodes.back());
-  return is_explained_by_stay(object, stay) && !stands_anyway(object, stay, journey, parameters);
+  static const double kShare = getenv("BSH") ? atof(getenv("BSH")) : 0.25;
+  const double slack = 3.0 + kShare * stay.scans();
+  if (object.width() > journey.widest) return false;
+  return object.first_agree >= static_cast<double>(stay.first) - slack &&
+         object.last_agree <= static_cast<double>(stay.last) + slack;
 }
 
 void sort_and_unite(std::vector<int>& numbers) {
