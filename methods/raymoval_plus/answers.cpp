@@ -2,6 +2,9 @@
 #include "methods/raymoval_plus/answers.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
 
 #include "core/scan/mask_store.h"
 #include "methods/common/prepared_scans.h"
@@ -67,6 +70,11 @@ class Answers {
     find_terrain_cells(terrain_, parameters_, of_scan_, located);
     find_heights_and_cells(terrain_, maps_, parameters_, of_scan_, located);
     look_up(maps_, parameters_, of_scan_, located);
+    if (const char* dump = getenv("DUMP")) {
+      FILE* f = fopen((std::string(dump) + "/" + std::to_string(located.scan.index) + ".bin").c_str(), "wb");
+      fwrite(located.voxel.data(), 4, located.voxel.size(), f);
+      fclose(f);
+    }
   }
   void segment(Scan scan, SegmentedScan& segmented) const {
     locate(std::move(scan), segmented);

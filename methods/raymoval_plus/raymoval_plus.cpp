@@ -226,6 +226,7 @@ class Run {
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
+  slots_per_scan = 64.0 / static_cast<double>(std::max<std::size_t>(scans.size(), 64));
   Run steps(parameters, scans, sink, context);
   if (parameters.at_once) {
     steps.online();

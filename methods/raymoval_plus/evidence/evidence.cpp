@@ -2,6 +2,8 @@
 #include "methods/raymoval_plus/evidence/evidence.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdlib>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -57,6 +59,7 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
 
 void decide_all(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
   const StageScope timed(context.times, "evidence");
+  find_scores(context, map);
   for (std::size_t voxel = 0; voxel < map.size(); ++voxel) {
     map.set_decision(voxel, decide(map.evidence(voxel), parameters));
   }
@@ -106,21 +109,79 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
   const auto count_up = [](std::uint16_t& count) {
     if (count < 0xFFFFU) ++count;
   };
+  const std::uint64_t slot = std::uint64_t{1} << std::min(63, static_cast<int>(scan * slots_per_scan));
   if (observation == Observation::kHit) {
+    evidence.hit_slots |= slot;
     evidence.last_agree = static_cast<std::uint32_t>(scan);
     if (evidence.agree_scans == 0) evidence.first_agree = evidence.last_agree;
     count_up(evidence.agree_scans);
     evidence.trailing_free = evidence.trailing_open = 0;
   } else if (observation == Observation::kPassed) {
     count_up(evidence.free_scans);
+    evidence.pass_slots |= slot;
     count_up(evidence.trailing_free);
     if (evidence.agree_scans == 0) count_up(evidence.leading_free);
   } else if (observation == Observation::kOpen) {
+    evidence.open_slots |= slot;
     count_up(evidence.agree_scans == 0 ? evidence.leading_open : evidence.trailing_open);
   }
 }
 
+namespace {
+double env(const char* name, double otherwise) {
+  const char* text = getenv(name);
+  return text != nullptr ? atof(text) : otherwise;
+}
+const double kSat = env("SAT", 6), kHc = env("HC", 3), kTau = env("TAU", 0.3), kSl = env("SL", 1), kOw = env("OW", 0.5), kSum = env("SUM", 0);
+const int kR = static_cast<int>(env("LR", 3));
+struct Interval { int first = 99, last = -1; };
+Interval interval_of(const VoxelEvidence& e) {
+  if (e.hit_slots == 0) return {};
+  return {std::countr_zero(e.hit_slots), 63 - std::countl_zero(e.hit_slots)};
+}
+}  // namespace
+
+void find_scores(const RunContext& context, EvidenceMap& map) {
+  if (getenv("OWN") != nullptr) return;
+  const int radius = map.is_fine() ? kR : static_cast<int>(env("GR", 1));
+  parallel_chunks(context.threads, map.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    EvidenceMap::Blocks::Cursor cursor;
+    for (std::size_t v = begin; v < end; ++v) {
+      VoxelEvidence& e = map.evidence(v);
+      Interval all = interval_of(e);
+      const Interval own = all;
+      const double h = std::min<double>(kHc, std::max<int>(1, e.agree_scans));
+      const bool few = e.agree_scans <= kFewHits;
+      if (e.leading_free + e.trailing_free + (few ? e.leading_open + e.trailing_open : 0) == 0) { e.score = 0; continue; }
+      for (int z = -radius; z <= radius; ++z) for (int y = -radius; y <= radius; ++y) for (int x = -radius; x <= radius; ++x) {
+        if (x * x + y * y + z * z > radius * radius) continue;
+        const std::size_t slot = map.find_slot(map.index(v) + VoxelIndex(x, y, z), cursor);
+        if (slot == EvidenceMap::Blocks::kNoSlot) continue;
+        const std::uint32_t other = map.voxel_in(slot);
+        if (other == EvidenceMap::kNone || other == v) continue;
+        const Interval f = interval_of(map.evidence(other));
+        if (f.last < 0) continue;
+        if (own.last >= 0) {
+          const double in = std::min(own.last, f.last) - std::max(own.first, f.first) + 1 + kSl;
+          const double un = std::max(own.last, f.last) - std::min(own.first, f.first) + 1 + kSl;
+          if (in < kTau * un) continue;
+        }
+        all.first = std::min(all.first, f.first);
+        all.last = std::max(all.last, f.last);
+      }
+      std::uint64_t inside = 0;
+      if (all.last >= 0) inside = (all.last >= 63 ? ~std::uint64_t{0} : (std::uint64_t{1} << (all.last + 1)) - 1) & ~((std::uint64_t{1} << all.first) - 1);
+      double o = std::popcount(e.pass_slots & ~inside);
+      if (few) o += kOw * std::popcount(e.open_slots & ~inside & ~e.pass_slots);
+      o = std::min(o, kSat);
+      e.score = static_cast<float>(kSum > 0 ? o / h : getenv("LOCAL") ? o / (o + h) : o);
+    }
+  });
+}
+
 float contradiction(const VoxelEvidence& evidence) {
+  static const bool local = getenv("LOCAL") != nullptr;
+  if (local && evidence.score >= 0) return evidence.score;
   const bool is_hit = evidence.agree_scans > 0;
   float outside = static_cast<float>(evidence.leading_free) + (is_hit ? static_cast<float>(evidence.trailing_free) : 0.0F);
   if (evidence.agree_scans <= kFewHits) outside += static_cast<float>(evidence.leading_open + evidence.trailing_open);

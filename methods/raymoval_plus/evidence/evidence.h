@@ -28,6 +28,7 @@ enum class WhenToDecide : std::uint8_t { kNow, kLater };
 /// @param images in order of time
 void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
                   WhenToDecide when, const RunContext& context, EvidenceMap& map);
+void find_scores(const RunContext& context, EvidenceMap& map);
 /// Step 4 for all voxels.
 void decide_all(const Parameters& parameters, const RunContext& context, EvidenceMap& map);
 

@@ -24,7 +24,10 @@ struct VoxelEvidence {
   std::uint16_t leading_open = 0, trailing_open = 0;
   /// The numbers of the first and of the last scan that agree, if any does.
   std::uint32_t first_agree = 0, last_agree = 0;
+  std::uint64_t hit_slots = 0, pass_slots = 0, open_slots = 0;
+  float score = -1.0F;
 };
+inline double slots_per_scan = 0.0;
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
 /// a decision from that (4) and a verdict, in which its neighbours had a say (5). Voxels are
@@ -115,6 +118,8 @@ class EvidenceMap {
   void set_decision(std::size_t voxel, Verdict decision);
   /// The verdict after its neighbours have voted.
   [[nodiscard]] Verdict verdict(std::size_t voxel) const { return verdicts_[slot(voxel)]; }
+  void set_verdict(std::size_t voxel, Verdict verdict) { verdicts_[slot(voxel)] = verdict; }
+  bool is_fine() const { return size_ < 0.3; }
   void set_verdict_in(std::size_t slot, Verdict verdict) { verdicts_[slot] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }

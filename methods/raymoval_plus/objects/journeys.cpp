@@ -224,6 +224,8 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
   for (std::size_t k = 0; k < track.nodes.size(); ++k) {
     const auto& [scan, object] = track.nodes[k];
     if (is_dynamic(object, parameters)) continue;
+    static const double kNever = getenv("NEVER") ? atof(getenv("NEVER")) : -1, kMany = getenv("MANY") ? atof(getenv("MANY")) : 10;
+    if (object.outside < kNever * object.points && object.agree_scans >= kMany) continue;
     if (belongs(track, k, *journey, parameters)) {
       findings.marked[scan].push_back(object.cluster);
       continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdlib>
 #include <limits>
 
 #include "methods/raymoval_plus/common/parameters.h"
@@ -25,7 +26,7 @@ struct ObjectSummary {
   int points = 0;
   int dynamic = 0;            ///< How many points are dynamic.
   int firm = 0;
-  float score = 0.0F;
+  float score = 0.0F, outside = 0.0F;
   bool is_part = false;
   bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.
   bool is_undivided = false;  ///< It was divided, and so stands beside what it was divided into.
@@ -39,6 +40,10 @@ struct ObjectSummary {
 template <class Thing>
 bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
   const double share = thing.is_part ? parameters.part_score : parameters.object_score;
+  static const double kThing = getenv("THING") ? atof(getenv("THING")) : 1e9;
+  static const double kFewer = getenv("FEWER") ? atof(getenv("FEWER")) : -1;
+  if (thing.outside >= kThing * thing.points) return true;
+  if (thing.outside < kFewer * thing.points) return false;
   return thing.firm <= parameters.firm_share * thing.points &&
          (static_cast<double>(thing.score) >= parameters.sure_score * thing.points ||
           (static_cast<double>(thing.score) >= share * thing.points &&
@@ -51,6 +56,8 @@ bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
 /// with fewer, but `object_points` of them, neither goes as a whole nor is marked by itself; a
 /// track may still mark the cluster that it was divided from.
 inline bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
+  static const double kThing = getenv("THING") ? atof(getenv("THING")) : 1e9;
+  if (object.points >= parameters.object_points && object.outside >= kThing * object.points) return true;
   return object.dynamic >= parameters.object_points && is_one_dynamic_thing(object, parameters);
 }
 

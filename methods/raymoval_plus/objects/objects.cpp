@@ -82,7 +82,7 @@ void add_undivided(const std::vector<Cluster>& whole, const std::vector<std::siz
     if (scan.clusters[from].undivided < 0) {
       scan.clusters[from].undivided = static_cast<int>(scan.clusters.size());
       scan.clusters.push_back(
-          {.points = whole[from].points, .dynamic = whole[from].dynamic, .firm = whole[from].firm, .score = whole[from].score, .is_undivided = true});
+          {.points = whole[from].points, .dynamic = whole[from].dynamic,   .firm = whole[from].firm, .score = whole[from].score, .outside = whole[from].outside, .is_undivided = true});
     }
     scan.clusters[whole.size() + part].undivided = scan.clusters[from].undivided;
   }
@@ -244,7 +244,7 @@ void find_clusters(const Parameters& parameters, const RunContext& context, Segm
 void count_points(const EvidenceMap& map, SegmentedScan& scan) {
   for (Cluster& cluster : scan.clusters) {
     cluster.points = cluster.dynamic = cluster.firm = 0;
-    cluster.score = 0.0F;
+    cluster.score = cluster.outside = 0.0F;
   }
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
@@ -254,6 +254,7 @@ void count_points(const EvidenceMap& map, SegmentedScan& scan) {
     if (!scan.has_standing_voxel(k)) continue;
     const VoxelEvidence& evidence = map.evidence(scan.voxel[k]);
     cluster.score += contradiction(evidence);
+    cluster.outside += std::max(evidence.score, 0.0F);
     if (is_firm(evidence)) ++cluster.firm;
   }
 }
@@ -298,6 +299,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     object.dynamic = scan.clusters[c].dynamic;
     object.firm = scan.clusters[c].firm;
     object.score = scan.clusters[c].score;
+    object.outside = scan.clusters[c].outside;
     object.is_part = scan.clusters[c].is_part;
     object.is_whole = scan.clusters[c].is_whole;
     object.is_undivided = scan.clusters[c].is_undivided;

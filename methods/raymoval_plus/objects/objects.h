@@ -17,7 +17,7 @@ struct Cluster {
   int points = 0;
   int dynamic = 0;  ///< How many of these are dynamic.
   int firm = 0;
-  float score = 0.0F;
+  float score = 0.0F, outside = 0.0F;
   /// What stands against a wall is one cluster with it. Such a cluster is divided: the points of
   /// voxels that many scans agree with stay in it, and the others make parts of their own.
   bool is_part = false;
