@@ -231,6 +231,7 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
       continue;
     }
     const auto& motion = journey->motion;
+    if (getenv("NOPASS") != nullptr) continue;
     if (!motion || !goes_on(track, k, *motion, parameters)) continue;
     findings.passing.push_back({scan, object, scans_explained(object, *motion, parameters)});
   }
@@ -242,6 +243,7 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
 /// object that it lost, and then both are lost. So objects are followed with and without.
 std::vector<TrackRules> all_rules() {
   std::vector<TrackRules> rules;
+  if (getenv("ONERULE") != nullptr) return {{kFirstSpeed, atoi(getenv("ONERULE")) % 2 == 0 ? kGate : kWideGate, atoi(getenv("ONERULE")) / 2 == 1}};
   for (const bool also_undivided : {false, true}) {
     for (const TrackGate& gate : {kGate, kWideGate}) {
       for (const double first_speed : {0.0, kFirstSpeed}) {
@@ -319,7 +321,7 @@ std::vector<std::vector<int>> objects_on_tracks(
   Findings findings = follow_all(scans, parameters, context.threads);
   // Where others stood, scans agree on what passes for as long as these stood there.
   const TakenPlaces places = taken_places(scans, findings.marked, parameters);
-  for (const auto& [scan, object, explained] : findings.passing) {
+  if (getenv("NOTAKEN") == nullptr) for (const auto& [scan, object, explained] : findings.passing) {
     if (object.agree_scans > explained + places.scans_at(object, parameters.voxel_size)) continue;
     findings.marked[scan].push_back(object.cluster);
   }

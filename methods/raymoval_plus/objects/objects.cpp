@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/objects/objects.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 
 #include "core/parallel.h"
@@ -54,6 +55,7 @@ std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& par
 
 /// Whether a cluster has many dynamic points, but too few to be one dynamic thing.
 bool is_mixed(const Cluster& cluster, const Parameters& parameters) {
+  if (getenv("NODIV") != nullptr) return false;
   if (is_one_dynamic_thing(cluster, parameters)) return false;
   return cluster.dynamic >= parameters.group_points ||
          static_cast<double>(cluster.score) >= parameters.object_score * cluster.points;
@@ -78,7 +80,7 @@ void add_undivided(const std::vector<Cluster>& whole, const std::vector<std::siz
                    SegmentedScan& scan) {
   for (std::size_t part = 0; part < divided.size(); ++part) {
     const std::size_t from = divided[part];
-    if (whole[from].is_hardly_dynamic) continue;
+    if (whole[from].is_hardly_dynamic || getenv("NOUNDIV") != nullptr) continue;
     if (scan.clusters[from].undivided < 0) {
       scan.clusters[from].undivided = static_cast<int>(scan.clusters.size());
       scan.clusters.push_back(
@@ -307,7 +309,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     object.center /= object.points;
     object.time_s = scan.scan.time_s;
     object.range = static_cast<float>((object.center - sensor).norm());
-    if (is_sparse(object, steps)) continue;
+    if (getenv("NOSPARSE") == nullptr && is_sparse(object, steps)) continue;
     divide_evidence(std::max(object.points - object.dynamic, 1), object);
     object.cluster = static_cast<int>(c);
     followed.push_back(object);
@@ -323,7 +325,9 @@ Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
   const std::vector<std::uint8_t> is_marked = marked_clusters(scan, marked);
   const std::vector<std::uint8_t> is_dynamic = dynamic_clusters(scan, is_marked, parameters);
   const std::vector<std::uint8_t> lasting = lasting_points(scan, map, is_dynamic, parameters);
-  const std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
+  std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
+  if (getenv("NOSPARED") != nullptr) std::fill(spared.begin(), spared.end(), 0);
+  if (getenv("ALLSPARED") != nullptr) std::fill(spared.begin(), spared.end(), 1);
   std::vector<std::uint8_t> go(is_marked.size());
   std::transform(is_marked.begin(), is_marked.end(), is_dynamic.begin(), go.begin(), std::bit_or());
   Verdicts verdict = scan.verdict;
@@ -336,7 +340,7 @@ Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
       verdict[scan.high_points[i]] = Verdict::kStatic;
     }
   }
-  add_fragments(scan, go, parameters, verdict);
+  if (getenv("NOFRAG") == nullptr) add_fragments(scan, go, parameters, verdict);
   return verdict;
 }
 
