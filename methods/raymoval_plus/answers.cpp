@@ -2,9 +2,6 @@
 #include "methods/raymoval_plus/answers.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
 
 #include "core/scan/mask_store.h"
 #include "methods/common/prepared_scans.h"
@@ -70,16 +67,11 @@ class Answers {
     find_terrain_cells(terrain_, parameters_, of_scan_, located);
     find_heights_and_cells(terrain_, maps_, parameters_, of_scan_, located);
     look_up(maps_, parameters_, of_scan_, located);
-    if (const char* dump = getenv("DUMP")) {
-      FILE* f = fopen((std::string(dump) + "/" + std::to_string(located.scan.index) + ".bin").c_str(), "wb");
-      fwrite(located.voxel.data(), 4, located.voxel.size(), f);
-      fclose(f);
-    }
   }
   void segment(Scan scan, SegmentedScan& segmented) const {
     locate(std::move(scan), segmented);
     find_clusters(parameters_, of_scan_, segmented);                    // 6
-    divide_clusters(maps_.standing, parameters_, of_scan_, segmented);  // 6
+    add_evidence_of_points(maps_.standing, segmented);  // 6
   }
 
   void decide_without_tracks(Scan scan) {
@@ -87,10 +79,10 @@ class Answers {
     workspaces_.with_one([&](SegmentedScan& segmented) {
       segment(std::move(scan), segmented);
       objects_[index] =
-          summarise_objects(segmented, maps_.standing, maps_.steps, parameters_, of_scan_);
+          summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
       runs_[index] = remembered_points(segmented, objects_[index], parameters_);
       Verdicts verdicts =
-          decide_objects(segmented, maps_.standing, {}, parameters_, of_scan_);  // 6
+          decide_objects(segmented, {}, parameters_, of_scan_);  // 6
       decide_low_points(segmented, maps_, parameters_, of_scan_, verdicts);      // 8
       unmarked_.set(index, removed_points(verdicts));
     });
@@ -164,7 +156,7 @@ void answer_from_map(const Terrain& terrain, const EvidenceMaps& maps, const Par
 void answer(const SegmentedScan& scan, const std::vector<int>& marked, const EvidenceMaps& maps,
             const Parameters& parameters, RemovalSink& sink, const RunContext& context) {
   const Verdicts by_objects =
-      decide_objects(scan, maps.standing, marked, parameters, context);  // 6, 7
+      decide_objects(scan, marked, parameters, context);  // 6, 7
   Verdicts decided = by_objects;
   decide_low_points(scan, maps, parameters, context, decided);  // 8
   sink.accept(scan.scan.index, removed_points(decided));

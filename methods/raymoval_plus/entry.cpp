@@ -29,11 +29,11 @@ MethodEntry raymoval_plus_entry() {
        {0.9694F, 0.9940F},
        {0.9844F, 0.9989F}}};
   // EXPERIMENTS.md, "Main parameters", has what each changes.
-  entry.main_parameters = {"free_constant", "vote_share", "agree_constant", "evidence_range_max",
-                           "voxel_size"};
+  entry.main_parameters = {"voxel_contradiction", "object_passes", "vote_share",
+                           "evidence_range_max", "voxel_size"};
   entry.advice =
-      "If too much is removed, raise free_constant, vote_share or agree_constant. If too little is "
-      "removed, lower them; if far objects stay, raise evidence_range_max.";
+      "If too much is removed, raise voxel_contradiction, object_passes or vote_share. If too little "
+      "is removed, lower them; if far objects stay, raise evidence_range_max.";
   // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
   // voxels around have to be dynamic.
   const Configuration at_once = {

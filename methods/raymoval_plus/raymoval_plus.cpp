@@ -3,6 +3,7 @@
 #include "methods/raymoval_plus/raymoval_plus.h"
 
 #include <array>
+#include <numeric>
 #include <span>
 
 #include "methods/common/prepared_scans.h"
@@ -56,7 +57,7 @@ class Run {
   /// One pass, in which each scan is answered from those up to a fixed time after it.
   void online() {
     WaitingScans waiting(parameters_.delay);
-    RecentObjects recent(parameters_, maps_.steps);
+    RecentObjects recent(parameters_);
     const auto answer_first = [&] {
       answer_by_now(waiting.first(), recent);
       waiting.remove_first();
@@ -71,7 +72,7 @@ class Run {
           [&] { find_clusters(parameters_, beside_others_, scan); });  // 6
       if (parameters_.delay > 0.0) {
         look_up_verdicts(maps_, context_, scan);
-        count_points(maps_.standing, scan);
+        add_evidence_of_points(maps_.standing, scan);
         recent.take(scan, maps_.standing, context_);
       }
       while (waiting.is_due()) answer_first();
@@ -131,6 +132,9 @@ class Run {
       decide_all(parameters_, context_, *map);
       vote(parameters_, context_, *map);
     }
+    std::vector<std::uint32_t> all(maps_.standing.size());
+    std::iota(all.begin(), all.end(), 0U);
+    find_passes_outside(all, context_, maps_.standing);
   }
 
   void fill_images(std::span<const Scan> batch, std::vector<BeamImage>& images,
@@ -204,7 +208,8 @@ class Run {
     vote(blocks, parameters_, context_, maps_.standing);                                    // 5
     vote(blocks_of(scan.ground_voxel, maps_.ground), parameters_, context_, maps_.ground);  // 5
     look_up_verdicts(maps_, context_, scan);
-    divide_clusters(maps_.standing, parameters_, context_, scan);  // 6
+    find_passes_outside(voxels_of(blocks, maps_.standing), context_, maps_.standing);  // 6
+    add_evidence_of_points(maps_.standing, scan);                                     // 6
     recent.take(scan, maps_.standing, context_);
     recent.judge(maps_.standing, context_);
     answer(scan, recent.marked(scan.scan.index, context_), maps_, parameters_, sink_,
@@ -226,7 +231,6 @@ class Run {
 void run(const Parameters& parameters, const ScanSource& scans, RemovalSink& sink,
          const RunContext& context) {
   if (context.reasons != nullptr) context.reasons->explain(reason_sentences());
-  slots_per_scan = 64.0 / static_cast<double>(std::max<std::size_t>(scans.size(), 64));
   Run steps(parameters, scans, sink, context);
   if (parameters.at_once) {
     steps.online();

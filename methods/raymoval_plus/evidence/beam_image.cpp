@@ -20,6 +20,9 @@ constexpr int kBlockShift = 3;
 /// it and up to which one that ends there hits it.
 constexpr float kCrosses = 1.0F, kMeets = 3.0F;
 
+/// Rows of beams so far apart may leave a voxel between them, metres; it is asked for up to so many
+/// times the range from which it was seen.
+constexpr float kRowGap = 0.3F, kFarther = 1.5F;
 /// Beams so far apart leave gaps on surfaces that are filled, metres.
 constexpr float kLeastGap = 0.1F, kMostGap = 1.5F;
 
@@ -38,9 +41,9 @@ float arc_tangent(float y, float x) {
 BeamImage::BeamImage(const SensorModel& sensor, const Parameters& parameters)
     : range_min_(static_cast<float>(parameters.evidence_range_min)),
       range_max_(static_cast<float>(parameters.evidence_range_max)),
-      hit_{static_cast<float>(parameters.agree_constant), static_cast<float>(parameters.agree_slope)},
-      pass_{static_cast<float>(parameters.occluded_constant), static_cast<float>(parameters.occluded_slope)},
-      nearest_(static_cast<float>(parameters.minimum_range)), soft_(parameters.soft), soft_times_(static_cast<float>(parameters.soft_times)), soft_gap_(static_cast<float>(parameters.soft_gap)) {
+      hit_(static_cast<float>(parameters.hit_distance)),
+      pass_(static_cast<float>(parameters.pass_distance)),
+      nearest_(static_cast<float>(parameters.minimum_range)) {
   const double width = sensor.azimuth_step > 0.0 ? sensor.azimuth_step : kUnknownStep;
   const double height = std::max(sensor.elevation_step > 0.0 ? 0.5 * sensor.elevation_step : kUnknownStep, kLeastRow);
   columns_ = static_cast<int>(std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
@@ -188,7 +191,8 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
     const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_, 0.25F * static_cast<float>(columns_));
     const int column0 = static_cast<int>(std::floor(column - wide));
     const int column1 = static_cast<int>(std::floor(column + wide));
-    const float hit = hit_[0] + hit_[1] * range, pass = pass_[0] + pass_[1] * range;
+    const auto slope = static_cast<float>(Parameters::distance_slope);
+    const float hit = hit_ + slope * range, pass = pass_ + slope * range;
     if (is_hidden(row0, row1, column0, column1, range - hit)) continue;
     const Eigen::Vector3f w(shape.xx * m.x() + shape.xy * m.y() + shape.xz * m.z(),
                             shape.xy * m.x() + shape.yy * m.y() + shape.yz * m.z(),
@@ -226,7 +230,7 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
         test(beams(r, column0, column1));
       }
     }
-    if (!is_crossed && soft_ && range <= soft_times_ * shape.nearest && 2.0F * elevation_step_ * range > soft_gap_) {
+    if (!is_crossed && range <= kFarther * shape.nearest && 2.0F * elevation_step_ * range > kRowGap) {
       if (is_open(row, column, range + pass)) observed.push_back({static_cast<std::uint32_t>(v), Observation::kOpen, range});
     }
     if (is_hit || is_passed) observed.push_back({static_cast<std::uint32_t>(v), is_hit ? Observation::kHit : Observation::kPassed, range});

@@ -78,9 +78,7 @@ class BeamImage {
 
   int rows_ = 0, columns_ = 0, block_columns_ = 0;
   float azimuth_step_ = 0.0F, elevation_step_ = 0.0F, lowest_ = 0.0F;
-  float range_min_, range_max_, hit_[2], pass_[2], nearest_;
-  bool soft_;
-  float soft_times_, soft_gap_;
+  float range_min_, range_max_, hit_, pass_, nearest_;
   Eigen::Matrix3f R_sensor_world_ = Eigen::Matrix3f::Identity();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> first_;  ///< Of each bin in `beams_`, and one more.

@@ -2,8 +2,6 @@
 #include "methods/raymoval_plus/evidence/evidence.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdlib>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,7 +17,14 @@ constexpr std::size_t kVoxelsATask = 256;
 
 /// Hits count up to this number, so that what stood for long and left can be told.
 constexpr int kMostHits = 10;
-const int kFewHits = getenv("FEWH") ? atoi(getenv("FEWH")) : 3;
+/// With so few hits, what is open around a voxel counts as passing it.
+constexpr int kFewHits = 3;
+/// What is open counts so much of what passes.
+constexpr float kOpenWeight = 0.5F;
+/// A firm voxel is contradicted less than this.
+constexpr float kFirm = 0.1F;
+/// Presences that are so much alike may be of one thing, see `Presence::likeness`.
+constexpr double kLikeness = 0.3;
 
 /// The tiles that any of the scans may say something of.
 std::vector<std::uint32_t> tiles_near(std::span<const PosedImage> images, double range,
@@ -59,7 +64,6 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
 
 void decide_all(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
   const StageScope timed(context.times, "evidence");
-  find_scores(context, map);
   for (std::size_t voxel = 0; voxel < map.size(); ++voxel) {
     map.set_decision(voxel, decide(map.evidence(voxel), parameters));
   }
@@ -109,100 +113,125 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
   const auto count_up = [](std::uint16_t& count) {
     if (count < 0xFFFFU) ++count;
   };
-  const std::uint64_t slot = std::uint64_t{1} << std::min(63, static_cast<int>(scan * slots_per_scan));
+  const auto number = static_cast<std::uint32_t>(scan);
+  const bool was_hit = evidence.hits > 0;
   if (observation == Observation::kHit) {
-    evidence.hit_slots |= slot;
-    evidence.last_agree = static_cast<std::uint32_t>(scan);
-    if (evidence.agree_scans == 0) evidence.first_agree = evidence.last_agree;
-    count_up(evidence.agree_scans);
-    evidence.trailing_free = evidence.trailing_open = 0;
+    evidence.last_hit = number;
+    if (!was_hit) evidence.first_hit = number;
+    count_up(evidence.hits);
+    evidence.passes_after = evidence.open_after = 0;
+  } else if (observation == Observation::kPassed && was_hit) {
+    evidence.last_passes[evidence.passes_after % VoxelEvidence::kPasses] = number;
+    count_up(evidence.passes_after);
   } else if (observation == Observation::kPassed) {
-    count_up(evidence.free_scans);
-    evidence.pass_slots |= slot;
-    count_up(evidence.trailing_free);
-    if (evidence.agree_scans == 0) count_up(evidence.leading_free);
+    if (evidence.passes_before < VoxelEvidence::kPasses) {
+      evidence.first_passes[evidence.passes_before] = number;
+    }
+    count_up(evidence.passes_before);
   } else if (observation == Observation::kOpen) {
-    evidence.open_slots |= slot;
-    count_up(evidence.agree_scans == 0 ? evidence.leading_open : evidence.trailing_open);
+    count_up(was_hit ? evidence.open_after : evidence.open_before);
   }
 }
 
 namespace {
-double env(const char* name, double otherwise) {
-  const char* text = getenv(name);
-  return text != nullptr ? atof(text) : otherwise;
+
+/// The scans from the first to the last hit.
+struct Presence {
+  std::uint32_t first, last;
+
+  /// The share of the scans of both that are common to both. Presences that just miss each other
+  /// have some.
+  [[nodiscard]] double likeness(const Presence& other) const {
+    const double common = kMissed + 1.0 + std::min(last, other.last) - std::max(first, other.first);
+    const double all = kMissed + 1.0 + std::max(last, other.last) - std::min(first, other.first);
+    return common / all;
+  }
+  static constexpr double kMissed = 2.0;  ///< Scans.
+};
+
+/// Calls `visit(cell)` for each cell at most `reach` cells away from one, along straight lines.
+template <class Visit>
+void for_cells_within(const VoxelIndex& cell, int reach, Visit&& visit) {
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        if (x * x + y * y + z * z <= reach * reach) visit(VoxelIndex(cell + VoxelIndex(x, y, z)));
+      }
+    }
+  }
 }
-const double kSat = env("SAT", 6), kHc = env("HC", 3), kTau = env("TAU", 0.3), kSl = env("SL", 1), kOw = env("OW", 0.5), kSum = env("SUM", 0);
-const int kR = static_cast<int>(env("LR", 3));
-struct Interval { int first = 99, last = -1; };
-Interval interval_of(const VoxelEvidence& e) {
-  if (e.hit_slots == 0) return {};
-  return {std::countr_zero(e.hit_slots), 63 - std::countl_zero(e.hit_slots)};
+
+/// The scans in which something was at or near a voxel: all hits of voxels around that were there
+/// at nearly the same time. A thing that turns or sways hits some voxels later and leaves others
+/// earlier than it came and went.
+Presence presence_around(std::uint32_t voxel, const EvidenceMap& map) {
+  const VoxelEvidence& evidence = map.evidence(voxel);
+  const Presence own{evidence.first_hit, evidence.last_hit};
+  const bool is_hit = evidence.hits > 0;
+  Presence all = own;
+  bool is_any = is_hit;
+  EvidenceMap::Blocks::Cursor cursor;
+  for_cells_within(map.index(voxel), map.reach_of_things(), [&](const VoxelIndex& cell) {
+    const std::size_t slot = map.find_slot(cell, cursor);
+    if (slot == EvidenceMap::Blocks::kNoSlot) return;
+    const std::uint32_t number = map.voxel_in(slot);
+    if (number == EvidenceMap::kNone) return;
+    const VoxelEvidence& other = map.evidence(number);
+    const Presence its{other.first_hit, other.last_hit};
+    if (other.hits == 0 || (is_hit && own.likeness(its) < kLikeness)) return;
+    all = is_any ? Presence{std::min(all.first, its.first), std::max(all.last, its.last)} : its;
+    is_any = true;
+  });
+  return is_any ? all : Presence{std::numeric_limits<std::uint32_t>::max(), 0};
 }
+
+float passes_outside(std::uint32_t voxel, const EvidenceMap& map) {
+  const VoxelEvidence& evidence = map.evidence(voxel);
+  float open = 0.0F;
+  if (evidence.hits <= kFewHits) {
+    open = kOpenWeight * static_cast<float>(evidence.open_before + evidence.open_after);
+  }
+  constexpr auto kMost = static_cast<float>(VoxelEvidence::kPasses);
+  if (evidence.passes_before + evidence.passes_after == 0) return std::min(open, kMost);
+  const Presence presence = presence_around(voxel, map);
+  std::size_t outside = 0;
+  for (std::size_t n = 0; n < std::min<std::size_t>(evidence.passes_before, VoxelEvidence::kPasses); ++n) {
+    const std::uint32_t scan = evidence.first_passes[n];
+    if (scan < presence.first || scan > presence.last) ++outside;
+  }
+  for (std::size_t n = 0; n < std::min<std::size_t>(evidence.passes_after, VoxelEvidence::kPasses); ++n) {
+    if (evidence.last_passes[n] > presence.last) ++outside;
+  }
+  return std::min(static_cast<float>(outside) + open, kMost);
+}
+
 }  // namespace
 
-void find_scores(const RunContext& context, EvidenceMap& map) {
-  if (getenv("OWN") != nullptr) return;
-  const int radius = map.is_fine() ? kR : static_cast<int>(env("GR", 1));
-  parallel_chunks(context.threads, map.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    EvidenceMap::Blocks::Cursor cursor;
-    for (std::size_t v = begin; v < end; ++v) {
-      VoxelEvidence& e = map.evidence(v);
-      Interval all = interval_of(e);
-      const Interval own = all;
-      const double h = std::min<double>(kHc, std::max<int>(1, e.agree_scans));
-      const bool few = e.agree_scans <= kFewHits;
-      if (e.leading_free + e.trailing_free + (few ? e.leading_open + e.trailing_open : 0) == 0) { e.score = 0; continue; }
-      for (int z = -radius; z <= radius; ++z) for (int y = -radius; y <= radius; ++y) for (int x = -radius; x <= radius; ++x) {
-        if (x * x + y * y + z * z > radius * radius) continue;
-        const std::size_t slot = map.find_slot(map.index(v) + VoxelIndex(x, y, z), cursor);
-        if (slot == EvidenceMap::Blocks::kNoSlot) continue;
-        const std::uint32_t other = map.voxel_in(slot);
-        if (other == EvidenceMap::kNone || other == v) continue;
-        const Interval f = interval_of(map.evidence(other));
-        if (f.last < 0) continue;
-        if (own.last >= 0) {
-          const double in = std::min(own.last, f.last) - std::max(own.first, f.first) + 1 + kSl;
-          const double un = std::max(own.last, f.last) - std::min(own.first, f.first) + 1 + kSl;
-          if (in < kTau * un) continue;
-        }
-        all.first = std::min(all.first, f.first);
-        all.last = std::max(all.last, f.last);
-      }
-      std::uint64_t inside = 0;
-      if (all.last >= 0) inside = (all.last >= 63 ? ~std::uint64_t{0} : (std::uint64_t{1} << (all.last + 1)) - 1) & ~((std::uint64_t{1} << all.first) - 1);
-      double o = std::popcount(e.pass_slots & ~inside);
-      if (few) o += kOw * std::popcount(e.open_slots & ~inside & ~e.pass_slots);
-      o = std::min(o, kSat);
-      e.score = static_cast<float>(kSum > 0 ? o / h : getenv("LOCAL") ? o / (o + h) : o);
-    }
-  });
+void find_passes_outside(const std::vector<std::uint32_t>& voxels, const RunContext& context,
+                         EvidenceMap& map) {
+  const StageScope timed(context.times, "passes outside");
+  parallel_chunks(context.threads, voxels.size(), kVoxelsATask,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) {
+                      map.evidence(voxels[i]).passes_outside = passes_outside(voxels[i], map);
+                    }
+                  });
 }
 
 float contradiction(const VoxelEvidence& evidence) {
-  static const bool local = getenv("LOCAL") != nullptr;
-  if (local && evidence.score >= 0) return evidence.score;
-  const bool is_hit = evidence.agree_scans > 0;
-  float outside = static_cast<float>(evidence.leading_free) + (is_hit ? static_cast<float>(evidence.trailing_free) : 0.0F);
-  if (evidence.agree_scans <= kFewHits) outside += static_cast<float>(evidence.leading_open + evidence.trailing_open);
-  return outside / (outside + static_cast<float>(std::min<int>(evidence.agree_scans, kMostHits)) + 1.0F);
+  int outside = evidence.passes_before + evidence.passes_after;
+  if (evidence.hits <= kFewHits) outside += evidence.open_before + evidence.open_after;
+  const int hits = std::min<int>(evidence.hits, kMostHits);
+  return static_cast<float>(outside) / static_cast<float>(outside + hits + 1);
 }
 
 bool is_firm(const VoxelEvidence& evidence) {
-  return evidence.agree_scans >= kMostHits && contradiction(evidence) < 0.1F;
+  return evidence.hits >= kMostHits && contradiction(evidence) < kFirm;
 }
 
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters) {
-  if (contradiction(evidence) >= parameters.voxel_share) return Verdict::kDynamic;
-  return evidence.agree_scans >= parameters.static_agree ? Verdict::kStatic : Verdict::kUndecided;
-}
-
-bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters) {
-  return parameters.settled_scans > 0 && evidence.agree_scans >= parameters.settled_scans;
-}
-
-bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters) {
-  return evidence.free_scans == 0 && is_settled(evidence, parameters);
+  if (contradiction(evidence) >= parameters.voxel_contradiction) return Verdict::kDynamic;
+  return evidence.hits >= parameters.static_hits ? Verdict::kStatic : Verdict::kUndecided;
 }
 
 }  // namespace raymoval::raymoval_plus_method

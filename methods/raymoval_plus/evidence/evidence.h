@@ -28,7 +28,6 @@ enum class WhenToDecide : std::uint8_t { kNow, kLater };
 /// @param images in order of time
 void add_evidence(std::span<const PosedImage> images, const Parameters& parameters,
                   WhenToDecide when, const RunContext& context, EvidenceMap& map);
-void find_scores(const RunContext& context, EvidenceMap& map);
 /// Step 4 for all voxels.
 void decide_all(const Parameters& parameters, const RunContext& context, EvidenceMap& map);
 
@@ -60,9 +59,16 @@ class EarlierScans {
 /// Step 3 for one voxel: adds what one scan says. Scans come in order of time.
 void add_observation(Observation observation, std::size_t scan, VoxelEvidence& evidence);
 
-/// The share of a voxel's observations that contradict it: scans that passed through it before the
-/// first hit or after the last one, from 0 to 1. Hits count up to ten.
+/// The share of a voxel's observations that contradict it: scans that passed before the first hit or
+/// after the last one, from 0 to 1. Hits count up to ten, so that what stood for long and left can
+/// be told.
 [[nodiscard]] float contradiction(const VoxelEvidence& evidence);
+
+/// Finds `VoxelEvidence::passes_outside` of some voxels: the passes before the first and after the
+/// last hit of all voxels within `reach_of_things` that were there at nearly the same time. What
+/// stands has next to none; a voxel's own passes are also of beams that pass beside its points.
+void find_passes_outside(const std::vector<std::uint32_t>& voxels, const RunContext& context,
+                         EvidenceMap& map);
 
 /// Whether many scans hit a voxel and next to none contradicts it.
 [[nodiscard]] bool is_firm(const VoxelEvidence& evidence);
@@ -70,33 +76,15 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
 /// Step 4 for one voxel: static, dynamic or undecided.
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters);
 
-/// Of the scans that say something of what stands, hardly any sees through it: no more than this
-/// share of those that agree. Beams pass beside a pole.
-inline constexpr double kHardlyFree = 0.05;
-/// Whether hardly any scan sees through a voxel, or an object.
-template <class Evidence>
-bool is_hardly_seen_through(const Evidence& evidence) {
-  return evidence.free_scans <= kHardlyFree * evidence.agree_scans;
-}
-
-/// The numbers of the first and of the last scan that agree with a voxel.
-struct AgreeingSpan {
+/// The numbers of the first and of the last scan that hit a voxel. Where none does, a point's own
+/// scan is both.
+struct HitSpan {
   std::uint32_t first, last;
 };
-/// Where none agrees, a point's own scan is both.
-inline AgreeingSpan agreeing_span(const VoxelEvidence& evidence, std::size_t own_scan) {
-  if (evidence.agree_scans > 0) return {evidence.first_agree, evidence.last_agree};
+inline HitSpan hit_span(const VoxelEvidence& evidence, std::size_t own_scan) {
+  if (evidence.hits > 0) return {evidence.first_hit, evidence.last_hit};
   const auto own = static_cast<std::uint32_t>(own_scan);
   return {own, own};
 }
-
-/// Whether enough scans agree with a voxel for it to be settled, if any voxel is to be.
-bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters);
-/// The same of a point's voxel; ground, which is in no voxel of what stands, is not.
-inline bool is_settled(std::uint32_t voxel, const EvidenceMap& map, const Parameters& parameters) {
-  return voxel != EvidenceMap::kNone && is_settled(map.evidence(voxel), parameters);
-}
-/// Whether a voxel is settled and no scan saw through it: it was there all the time.
-bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);
 
 }  // namespace raymoval::raymoval_plus_method

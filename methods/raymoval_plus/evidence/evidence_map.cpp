@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace raymoval::raymoval_plus_method {
@@ -17,6 +16,9 @@ constexpr double kParts = 256.0;
 constexpr std::int32_t kMostPoints = 1U << 16;
 /// Added to the deviation of a voxel's points, metres: the noise of ranges and poses.
 constexpr double kLeastDeviation = 0.04;
+/// The points of a voxel are on a plane if their deviation along its normal is so much less than
+/// along the next axis. A beam that passes it ends so far behind the plane, beside that deviation.
+constexpr double kFlat = 0.7, kBehind = 0.1;
 /// So many blocks are compared at a time with what they were.
 constexpr std::uint32_t kComparedBlocks = 256;
 
@@ -106,9 +108,7 @@ VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
   axes.computeDirect(covariance);
   const Eigen::Vector3d deviations = axes.eigenvalues().cwiseMax(1e-6).cwiseSqrt();
-  static const double kFlat = getenv("FLAT") ? atof(getenv("FLAT")) : 0.7;
-  static const double kBehind = getenv("BEH") ? atof(getenv("BEH")) : 0.1;
-  const bool is_flat = size_ < 0.3 && deviations[0] < kFlat * deviations[1];
+  const bool is_flat = knows_planes_ && deviations[0] < kFlat * deviations[1];
   const Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
   const float behind = is_flat ? static_cast<float>(kBehind + deviations[0]) : 0.0F;
   const Eigen::Matrix3f inverse = covariance.inverse().cast<float>();

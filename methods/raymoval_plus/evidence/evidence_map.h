@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,19 +16,23 @@ namespace raymoval::raymoval_plus_method {
 enum class Verdict : std::uint8_t { kUndecided, kStatic, kDynamic };
 
 /// The numbers of scans that say something of a voxel.
+/// What the scans say of a voxel. A scan hits it if a beam ends there; it passes if beams cross the
+/// voxel and end well behind it, and none hits it.
 struct VoxelEvidence {
-  std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel, and are heard.
-  std::uint16_t agree_scans = 0;  ///< Scans with a return at the voxel.
-  /// Scans that saw through it from near by, before the first scan that agrees and since the last
-  /// one, without those beside all of its column.
-  std::uint16_t leading_free = 0, trailing_free = 0;
-  std::uint16_t leading_open = 0, trailing_open = 0;
-  /// The numbers of the first and of the last scan that agree, if any does.
-  std::uint32_t first_agree = 0, last_agree = 0;
-  std::uint64_t hit_slots = 0, pass_slots = 0, open_slots = 0;
-  float score = -1.0F;
+  static constexpr std::size_t kPasses = 4;
+  std::uint16_t hits = 0;  ///< Scans that hit the voxel.
+  /// Scans that passed before the first hit, and after the last one.
+  std::uint16_t passes_before = 0, passes_after = 0;
+  /// Scans of which the beams around the voxel end behind it, but none crosses it, likewise.
+  std::uint16_t open_before = 0, open_after = 0;
+  std::uint32_t first_hit = 0, last_hit = 0;  ///< Scan numbers, if any hit it.
+  /// The numbers of the first scans that passed before the first hit, and of the last ones that
+  /// passed after the last hit; of the latter, pass number n is at n % kPasses.
+  std::array<std::uint32_t, kPasses> first_passes{}, last_passes{};
+  /// Scans that passed while nothing near the voxel was there, at most kPasses; see
+  /// `find_passes_outside`.
+  float passes_outside = 0.0F;
 };
-inline double slots_per_scan = 0.0;
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
 /// a decision from that (4) and a verdict, in which its neighbours had a say (5). Voxels are
@@ -37,8 +42,15 @@ class EvidenceMap {
   using Blocks = DenseBlocks<std::uint32_t, 2, 2>;  ///< A block has 4 x 4 x 4 voxels.
   static constexpr std::uint32_t kNone = Blocks::kNone;
 
-  explicit EvidenceMap(double voxel_size)
-      : size_(voxel_size), inverse_(1.0 / voxel_size), blocks_(kNone) {}
+  /// @param voxel_size metres
+  /// @param reach_of_things voxels within this distance may be of one thing, in voxels
+  /// @param knows_planes whether beams that end just behind the plane of a voxel's points count
+  explicit EvidenceMap(double voxel_size, int reach_of_things = 3, bool knows_planes = true)
+      : size_(voxel_size),
+        inverse_(1.0 / voxel_size),
+        reach_of_things_(reach_of_things),
+        knows_planes_(knows_planes),
+        blocks_(kNone) {}
 
   /// Finds the cells of a scan's points, and where the points are in them.
   void find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
@@ -74,6 +86,7 @@ class EvidenceMap {
   void expect_sums(std::uint32_t voxel) const { __builtin_prefetch(&sums_[voxel]); }
 
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+  [[nodiscard]] int reach_of_things() const { return reach_of_things_; }
   /// The place of a cell among those of all blocks, or `Blocks::kNoSlot`.
   [[nodiscard]] std::size_t find_slot(const VoxelIndex& cell, Blocks::Cursor& cursor) const {
     return blocks_.slot(cell, cursor);
@@ -118,8 +131,6 @@ class EvidenceMap {
   void set_decision(std::size_t voxel, Verdict decision);
   /// The verdict after its neighbours have voted.
   [[nodiscard]] Verdict verdict(std::size_t voxel) const { return verdicts_[slot(voxel)]; }
-  void set_verdict(std::size_t voxel, Verdict verdict) { verdicts_[slot(voxel)] = verdict; }
-  bool is_fine() const { return size_ < 0.3; }
   void set_verdict_in(std::size_t slot, Verdict verdict) { verdicts_[slot] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
@@ -162,6 +173,8 @@ class EvidenceMap {
   [[nodiscard]] VoxelIndex tile_at(const Eigen::Vector3d& place) const;
 
   double size_, inverse_;
+  int reach_of_things_;
+  bool knows_planes_;
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block: see `dynamic_in`.
   /// By block: 1 if a voxel of it is dynamic, and whether it was at the last `update_surroundings`.

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -224,49 +220,6 @@ Verdict verdict_by_votes(Verdict decision, std::uint32_t votes, const Parameters
   return dynamic >= share * decided ? Verdict::kDynamic : Verdict::kStatic;
 }
 
-/// What beams only passed beside outlasts the dynamic voxels around it if so many times as many
-/// scans agree with it.
-constexpr double kOutlastBeside = 3.0;
-
-/// Whether beams only passed beside what is in a voxel: hardly any scan saw through it, and from
-/// near by none before it was first seen or after it was last seen, as where something came or
-/// left.
-bool is_only_passed_beside(const VoxelEvidence& evidence) {
-  return is_hardly_seen_through(evidence) && evidence.leading_free == 0 &&
-         evidence.trailing_free == 0;
-}
-
-/// Whether many times as many scans agree with a voxel as with the dynamic ones around it, on
-/// average: it is a parked car or a pole that others pass, for which a few scans suffice.
-bool outlasts_dynamic(std::uint32_t voxel, const Parameters& parameters, const EvidenceMap& map) {
-  const VoxelEvidence& evidence = map.evidence(voxel);
-  if (parameters.outlast == 0.0 || !is_settled(evidence, parameters)) return false;
-  const int side = 2 * parameters.vote_radius + 1;
-  const VoxelIndex corner = map.index(voxel).array() - parameters.vote_radius;
-  EvidenceMap::Blocks::Cursor cursor;
-  int count = 0, sum = 0;
-  for (int n = 0; n < side * side * side; ++n) {
-    const VoxelIndex cell = corner + VoxelIndex(n % side, n / side % side, n / (side * side));
-    const std::size_t slot = map.find_slot(cell, cursor);
-    if (slot == EvidenceMap::Blocks::kNoSlot) continue;
-    const std::uint32_t other = map.voxel_in(slot);
-    if (other == EvidenceMap::kNone || map.decision(other) != Verdict::kDynamic) continue;
-    ++count;
-    sum += map.evidence(other).agree_scans;
-  }
-  const double times = is_only_passed_beside(evidence)
-                           ? std::min(kOutlastBeside, parameters.outlast)
-                           : parameters.outlast;
-  return evidence.agree_scans * static_cast<double>(count) > times * sum;
-}
-
-/// Whether the votes around a voxel do not change its decision.
-bool is_not_outvoted(std::uint32_t voxel, Verdict voted, const Parameters& parameters,
-                     const EvidenceMap& map) {
-  return was_always_there(map.evidence(voxel), parameters) ||
-         (voted == Verdict::kDynamic && outlasts_dynamic(voxel, parameters, map));
-}
-
 template <class SomeBallot>
 void vote_in_block(std::uint32_t block, int reach, const Parameters& parameters, SomeBallot& ballot,
                    EvidenceMap& map) {
@@ -285,7 +238,7 @@ void vote_in_block(std::uint32_t block, int reach, const Parameters& parameters,
   for_voxels(map, block, [&](std::uint32_t v, std::size_t cell) {
     const Verdict voted = verdict_by_votes(decisions[cell], ballot.around(cell), parameters);
     // The evidence is far away in memory, and only asked where the vote changes something.
-    const bool stays = voted != decisions[cell] && is_not_outvoted(v, voted, parameters, map);
+    const bool stays = voted != decisions[cell] && is_firm(map.evidence(v));
     map.set_verdict_in(first_slot + cell, stays ? decisions[cell] : voted);
   });
 }
@@ -316,86 +269,7 @@ void vote(const std::vector<std::uint32_t>& blocks, const Parameters& parameters
   }
 }
 
-namespace {
-double env(const char* name, double otherwise) {
-  const char* text = getenv(name);
-  return text != nullptr ? atof(text) : otherwise;
-}
-/// Smoothing over neighbours that were there at the same time.
-void smooth(const RunContext& context, EvidenceMap& map) {
-  const StageScope timed(context.times, "vote");
-  static const double kappa = env("KAPPA", 1), cap = env("CAP", 10), prior = env("PRIOR", 0.1), join = env("JOIN", 0.1), slack = env("SLACK", 5);
-  static const int radius = static_cast<int>(env("RAD", 2)), rounds = static_cast<int>(env("ROUNDS", 5));
-  const std::size_t n = map.size();
-  std::vector<float> unary(n), belief(n), next(n);
-  for (std::size_t v = 0; v < n; ++v) {
-    const VoxelEvidence& e = map.evidence(v);
-    const double hits = std::min<double>(e.agree_scans, cap);
-    const double outside = e.leading_free + (e.agree_scans > 0 ? e.trailing_free : 0) + (e.agree_scans <= 3 ? e.leading_open + e.trailing_open : 0);
-    unary[v] = static_cast<float>(std::clamp((outside - kappa * hits) / cap, -1.0, 1.0) - prior);
-  }
-  belief = next = unary;
-  map.update_surroundings(1);
-  std::vector<std::uint32_t> active;
-  for (std::uint32_t b = 0; b < map.blocks().block_count(); ++b) {
-    if (map.is_near_dynamic(b)) for_voxels(map, b, [&](std::uint32_t v, std::size_t) { active.push_back(v); });
-  }
-  struct Link { std::uint32_t other; float weight; };
-  std::vector<std::vector<Link>> links(active.size());
-  const int side = 2 * radius + 1;
-  parallel_chunks(context.threads, active.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    EvidenceMap::Blocks::Cursor cursor;
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t v = active[i];
-      const VoxelEvidence& e = map.evidence(v);
-      const VoxelIndex corner = map.index(v).array() - radius;
-      for (int k = 0; k < side * side * side; ++k) {
-        const VoxelIndex cell = corner + VoxelIndex(k % side, k / side % side, k / (side * side));
-        const std::size_t slot = map.find_slot(cell, cursor);
-        if (slot == EvidenceMap::Blocks::kNoSlot) continue;
-        const std::uint32_t other = map.voxel_in(slot);
-        if (other == EvidenceMap::kNone || other == v) continue;
-        const VoxelEvidence& f = map.evidence(other);
-        double w = 1;
-        if (e.agree_scans > 0 && f.agree_scans > 0) {
-          const double a = std::max(e.first_agree, f.first_agree), z = std::min(e.last_agree, f.last_agree);
-          const double low = std::min(e.first_agree, f.first_agree), high = std::max(e.last_agree, f.last_agree);
-          w = std::max(0.0, z - a + 1 + slack) / (high - low + 1 + slack);
-        }
-        const double d2 = (cell - map.index(v)).squaredNorm();
-        w *= join * 3 / (2 + d2);
-        if (w > 0.001) links[i].push_back({other, static_cast<float>(w)});
-      }
-    }
-  });
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t i = 0; i < active.size(); ++i) {
-      float sum = unary[active[i]];
-      for (const Link& link : links[i]) { const float b = belief[link.other]; sum += link.weight * b / (0.3F + std::abs(b)); }
-      next[active[i]] = sum;
-    }
-    std::swap(belief, next);
-    for (const std::uint32_t v : active) next[v] = belief[v];
-  }
-  for (std::size_t v = 0; v < n; ++v) map.set_verdict(v, belief[v] > 0 ? Verdict::kDynamic : Verdict::kStatic);
-}
-}  // namespace
-
 void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& map) {
-  if (const char* dump = getenv("DUMP"); dump != nullptr && map.is_fine()) {
-    FILE* f = fopen((std::string(dump) + "/voxels.bin").c_str(), "wb");
-    for (std::size_t v = 0; v < map.size(); ++v) {
-      const VoxelEvidence& e = map.evidence(v);
-      const VoxelIndex& i = map.index(v);
-      const std::int32_t row[12] = {i.x(), i.y(), i.z(), e.free_scans, e.agree_scans, e.leading_free, e.trailing_free, e.leading_open, e.trailing_open, static_cast<int>(e.first_agree), static_cast<int>(e.last_agree), map.shape(v).behind > 0};
-      fwrite(row, 4, 12, f);
-      const std::uint64_t slots[3] = {e.hit_slots, e.pass_slots, e.open_slots};
-      fwrite(slots, 8, 3, f);
-    }
-    fclose(f);
-  }
-  static const bool smooths = getenv("SMOOTH") != nullptr;
-  if (smooths && map.is_fine()) return smooth(context, map);
   std::vector<std::uint32_t> blocks(map.blocks().block_count());
   std::iota(blocks.begin(), blocks.end(), 0U);
   vote(blocks, parameters, context, map);
@@ -411,6 +285,15 @@ std::vector<std::uint32_t> blocks_of(const std::vector<std::uint32_t>& voxels,
     if (std::exchange(is_found[block], std::uint8_t{1}) == 0) blocks.push_back(block);
   }
   return blocks;
+}
+
+std::vector<std::uint32_t> voxels_of(const std::vector<std::uint32_t>& blocks,
+                                     const EvidenceMap& map) {
+  std::vector<std::uint32_t> voxels;
+  for (const std::uint32_t block : blocks) {
+    for_voxels(map, block, [&](std::uint32_t voxel, std::size_t) { voxels.push_back(voxel); });
+  }
+  return voxels;
 }
 
 }  // namespace raymoval::raymoval_plus_method

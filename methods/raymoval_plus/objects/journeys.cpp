@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/objects/journeys.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -20,16 +21,12 @@ namespace {
 constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
 /// An object is in its place while it moved by no more than this share of its width.
 constexpr double kPlaceShare = 1.0;
-/// Scans may agree with an object that stands so many times as long as it was followed there: other
-/// sides of it come into sight, or something passes before it, and its track is lost.
-constexpr double kStaySlack = 2.0;
-/// With what stands there anyway, at least this share of the scans agree in which it would have to
-/// be gone.
-constexpr double kLeastPresent = 0.25;
-/// Where nothing moved, scans must agree for so many times as long before a track or after it, for
-/// what stands there to stand anyway: who stood before his track was lost and begins anew was there
-/// as well.
-constexpr double kLongerStay = 2.0;
+/// Of the objects of a track that stands, at least this share is dynamic: it came or leaves.
+constexpr double kCameOrLeaves = 0.25;
+/// An object may be hit so many scans, and this share of its stay, before the stay or after it.
+constexpr double kStaySlack = 3.0, kStaySlackShare = 0.25;
+/// So many scans hit what stood always.
+constexpr float kManyHits = 10.0F;
 /// What stands may be so many times, and by so many metres, wider than anything of its track that
 /// was seen to be dynamic. From nearer by more of it is in sight; a parked car whose track a drop
 /// of rain or a walker took over is larger by far.
@@ -113,16 +110,9 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
   return Motion{typical, moved / scans_between(first->scan, last->scan)};
 }
 
-/// Whether scans agree on an object no longer than it was followed while it stood.
-/// @param stay where it is then
-bool is_explained_by_stay(const ObjectSummary& object, const Stay& stay) {
-  return object.agree_scans <= kStaySlack * stay.scans() + kScansMore;
-}
-
 /// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
 bool came_or_leaves(const Track& track, const Parameters& parameters) {
-  static const double kCame = getenv("CAME") ? atof(getenv("CAME")) : 0.25;
-  return dynamic_objects(track, parameters) >= kCame * static_cast<double>(track.nodes.size());
+  return dynamic_objects(track, parameters) >= kCameOrLeaves * static_cast<double>(track.nodes.size());
 }
 
 /// How the object of a track goes.
@@ -155,23 +145,11 @@ std::optional<Journey> journey_of(const Track& track, const Parameters& paramete
                  kWider * dynamic_width(track, parameters) + kWiderMetres};
 }
 
-/// Whether something stands where an object does, no matter whether the object is there: it is the
-/// pole or the tree whose track somebody who passed took over. Scans agree with it long before the
-/// object would have come, or long after it would have left.
-bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey& journey,
-                   const Parameters& parameters) {
-  if (parameters.settled_scans == 0) return false;
-  if (!is_hardly_seen_through(object)) return false;
-  const double before = static_cast<double>(stay.first) - object.first_agree;
-  const double after = object.last_agree - static_cast<double>(stay.last);
-  const double absent = std::max(before, 0.0) + std::max(after, 0.0);
-  if (object.agree_scans - stay.scans() < kLeastPresent * absent) return false;
-  const bool was_before = before > parameters.settled_scans;
-  const bool is_after = after > parameters.settled_scans;
-  const double long_time = parameters.settled_scans * (journey.motion ? 1.0 : kLongerStay);
-  const bool came = journey.dynamic.first <= stay.first && before > long_time;
-  const bool left = journey.dynamic.last >= stay.last && after > long_time;
-  return came || left || (was_before && is_after);
+/// Whether many scans hit an object, and next to no beam passed where it is before or after: no
+/// track makes it dynamic.
+bool stood_always(const ObjectSummary& object, const Parameters& parameters) {
+  return object.hits >= kManyHits &&
+         object.evidence.passes < parameters.object_least_passes * object.points;
 }
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
@@ -182,11 +160,10 @@ bool belongs(const Track& track, std::size_t at, const Journey& journey,
   // What came or leaves, and stands else, is in one place all the time.
   const Stay stay =
       journey.motion ? stay_of(track, at) : stay_between(track.nodes.front(), track.nodes.back());
-  static const double kShare = getenv("BSH") ? atof(getenv("BSH")) : 0.25;
-  const double slack = 3.0 + kShare * stay.scans();
-  if (object.width() > journey.widest) return false;
-  return object.first_agree >= static_cast<double>(stay.first) - slack &&
-         object.last_agree <= static_cast<double>(stay.last) + slack;
+  const double slack = kStaySlack + kStaySlackShare * stay.scans();
+  if (object.width() > journey.widest || stood_always(object, parameters)) return false;
+  return object.first_hit >= static_cast<double>(stay.first) - slack &&
+         object.last_hit <= static_cast<double>(stay.last) + slack;
 }
 
 void sort_and_unite(std::vector<int>& numbers) {
@@ -224,58 +201,34 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
   for (std::size_t k = 0; k < track.nodes.size(); ++k) {
     const auto& [scan, object] = track.nodes[k];
     if (is_dynamic(object, parameters)) continue;
-    static const double kNever = getenv("NEVER") ? atof(getenv("NEVER")) : -1, kMany = getenv("MANY") ? atof(getenv("MANY")) : 10;
-    if (object.outside < kNever * object.points && object.agree_scans >= kMany) continue;
+    if (stood_always(object, parameters)) continue;
     if (belongs(track, k, *journey, parameters)) {
       findings.marked[scan].push_back(object.cluster);
       continue;
     }
     const auto& motion = journey->motion;
-    if (getenv("NOPASS") != nullptr) continue;
     if (!motion || !goes_on(track, k, *motion, parameters)) continue;
     findings.passing.push_back({scan, object, scans_explained(object, *motion, parameters)});
   }
 }
 
-/// All ways to follow objects. What is fast is lost without a long first step, what brakes between
-/// two scans without a wide gate, and what is divided in some scans and not in others if it may not
-/// be followed as it was before. With these, a track may take a neighbour, or a part, for the
-/// object that it lost, and then both are lost. So objects are followed with and without.
-std::vector<TrackRules> all_rules() {
-  std::vector<TrackRules> rules;
-  if (getenv("ONERULE") != nullptr) return {{kFirstSpeed, atoi(getenv("ONERULE")) % 2 == 0 ? kGate : kWideGate, atoi(getenv("ONERULE")) / 2 == 1}};
-  for (const bool also_undivided : {false, true}) {
-    for (const TrackGate& gate : {kGate, kWideGate}) {
-      for (const double first_speed : {0.0, kFirstSpeed}) {
-        rules.push_back({first_speed, gate, also_undivided});
-      }
-    }
-  }
-  return rules;
-}
-
-/// What tracks say by all rules, forward and backward in time.
+/// What tracks say, forward and backward in time.
 Findings follow_all(const std::vector<std::vector<ObjectSummary>>& scans,
                     const Parameters& parameters, int threads) {
-  const std::vector<TrackRules> rules = all_rules();
-  std::vector<Findings> by_rules(2 * rules.size());
-  parallel_for(threads, by_rules.size(), 1, [&](std::size_t i) {
-    by_rules[i].marked.resize(scans.size());
-    const ObjectTracker tracker(parameters, rules[i / 2]);
-    for (const Track& track : followed(scans, i % 2 == 1, tracker)) {
-      judge(track, parameters, by_rules[i]);
+  std::array<Findings, 2> found;
+  parallel_for(threads, found.size(), 1, [&](std::size_t i) {
+    found[i].marked.resize(scans.size());
+    for (const Track& track : followed(scans, i == 1, ObjectTracker(parameters))) {
+      judge(track, parameters, found[i]);
     }
   });
-  Findings all{std::vector<std::vector<int>>(scans.size()), {}};
-  for (const Findings& some : by_rules) {
-    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-      all.marked[scan].insert(all.marked[scan].end(), some.marked[scan].begin(),
-                              some.marked[scan].end());
-    }
-    all.passing.insert(all.passing.end(), some.passing.begin(), some.passing.end());
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    std::vector<int>& marked = found[0].marked[scan];
+    marked.insert(marked.end(), found[1].marked[scan].begin(), found[1].marked[scan].end());
+    sort_and_unite(marked);
   }
-  for (std::vector<int>& clusters : all.marked) sort_and_unite(clusters);
-  return all;
+  found[0].passing.insert(found[0].passing.end(), found[1].passing.begin(), found[1].passing.end());
+  return std::move(found[0]);
 }
 
 /// The places of all objects that are dynamic or marked.
@@ -321,8 +274,8 @@ std::vector<std::vector<int>> objects_on_tracks(
   Findings findings = follow_all(scans, parameters, context.threads);
   // Where others stood, scans agree on what passes for as long as these stood there.
   const TakenPlaces places = taken_places(scans, findings.marked, parameters);
-  if (getenv("NOTAKEN") == nullptr) for (const auto& [scan, object, explained] : findings.passing) {
-    if (object.agree_scans > explained + places.scans_at(object, parameters.voxel_size)) continue;
+  for (const auto& [scan, object, explained] : findings.passing) {
+    if (object.hits > explained + places.scans_at(object, parameters.voxel_size)) continue;
     findings.marked[scan].push_back(object.cluster);
   }
   for (std::vector<int>& clusters : findings.marked) sort_and_unite(clusters);

@@ -18,7 +18,7 @@ std::vector<float> object_shares(const SegmentedScan& scan) {
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
     shares[scan.high_points[i]] =
-        static_cast<float>(cluster.dynamic) / static_cast<float>(std::max(cluster.points, 1));
+        static_cast<float>(cluster.evidence.dynamic) / static_cast<float>(std::max(cluster.points, 1));
   }
   return shares;
 }

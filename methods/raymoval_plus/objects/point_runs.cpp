@@ -20,7 +20,7 @@ bool is_remembered(const std::vector<ObjectSummary>& objects, std::size_t number
                    const Parameters& parameters) {
   if (number >= kMostObjects) return false;
   const ObjectSummary& object = objects[number];
-  return !is_dynamic(object, parameters) && object.agree_scans <= kMostAgreeing;
+  return !is_dynamic(object, parameters) && object.hits <= kMostAgreeing;
 }
 
 std::vector<PointRun> remembered_points(const SegmentedScan& scan,
@@ -49,8 +49,7 @@ std::vector<PointRun> remembered_points(const SegmentedScan& scan,
     }
   };
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    for_clusters_of(
-        scan, i, [&](std::size_t cluster) { remember(scan.high_points[i], object_of[cluster]); });
+    remember(scan.high_points[i], object_of[static_cast<std::size_t>(scan.cluster_of[i])]);
   }
   const Fragments fragments(scan, parameters);
   for (const ObjectSummary& object : objects) {
