@@ -14,10 +14,8 @@ WORKDIR /src
 COPY scripts/install_dependencies.sh scripts/
 RUN mkdir -p /usr/share/man/man1 && apt-get update && apt-get install --yes --no-install-recommends git ca-certificates dpkg-dev file && scripts/install_dependencies.sh
 COPY . .
-# ON, OFF, or AUTO: whether reports have the 3-D view.
-ARG RAYMOVAL_REPORT_3D=ON
 ARG JOBS=
-RUN cmake --preset release -DRAYMOVAL_BUILD_TESTS=OFF -DRAYMOVAL_REPORT_3D=${RAYMOVAL_REPORT_3D}
+RUN cmake --preset release -DRAYMOVAL_BUILD_TESTS=OFF
 RUN cmake --build build/release -j ${JOBS:-$(nproc)}
 RUN cd build/release && cpack -G DEB -B /packages
 

@@ -119,7 +119,7 @@ raymoval_need(embree_FOUND "Embree 3.12 or later, or 4" libembree-dev)
 # Draws pictures.
 raymoval_need_module(cairo libcairo2-dev cairo-png>=1.16 cairo-ft)
 include(cmake/system_libraries.cmake)
-foreach(library lzf pcl_common pcl_sample_consensus octomap octomath)
+foreach(library lzf pcl_common octomap octomath)
   set(package liblzf-dev)
   if(library MATCHES "pcl")
     set(package libpcl-dev)

@@ -33,13 +33,7 @@ foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
-# The program holds three.js, whose licence must be included.
 file(READ LICENSE copyright)
-if(raymoval_report_3d)
-  file(READ benchmark/report/web/three_licence.txt three_licence)
-  string(APPEND copyright "\n\nraymoval contains three.js for the pages of `raymoval report`:\n\n"
-         "${three_licence}")
-endif()
 file(WRITE ${PROJECT_BINARY_DIR}/copyright "${copyright}")
 # Debian asks for this file in a folder with the name of the package.
 install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})

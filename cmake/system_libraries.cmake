@@ -5,7 +5,7 @@
 set(raymoval_missing_libraries "")
 set(raymoval_libraries octomap octomath lzf)
 if(raymoval_has_pcl)
-  list(APPEND raymoval_libraries pcl_common pcl_sample_consensus)
+  list(APPEND raymoval_libraries pcl_common)
 endif()
 foreach(name ${raymoval_libraries})
   if(NOT TARGET raymoval::${name})

@@ -38,6 +38,13 @@ std::string counted_text(std::uint64_t count, const std::string& noun) {
   return grouped_text(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+std::string in_lower_case(std::string text) {
+  for (char& letter : text) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return text;
+}
+
 std::vector<std::string_view> split_blanks(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   std::vector<std::string_view> pieces;

@@ -48,6 +48,9 @@ inline bool all_digits(std::string_view text) {
   return std::all_of(text.begin(), text.end(), is_digit);
 }
 
+/// `text` with the letters A to Z in lower case.
+std::string in_lower_case(std::string text);
+
 /// Pieces of `text` between blanks and tabs (also carriage returns); empty pieces are dropped.
 std::vector<std::string_view> split_blanks(std::string_view text);
 

@@ -10,6 +10,7 @@
 #include "datasets/ego/ego_region.h"
 #include "datasets/ego/sensor_origin.h"
 #include "datasets/layouts.h"
+#include "datasets/sequence_poses.h"
 
 namespace raymoval {
 namespace {
@@ -76,13 +77,36 @@ void check_label_rule(const Sequence& sequence, const SequenceOptions& options) 
                    ". Leave it out.");
 }
 
-/// " Its folder scans/ has scans: ...", if one of its folders has; else empty.
+/// The files of `folder` with "pose" in their names.
+std::vector<std::string> pose_files(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const fs::path& file : list_files(folder, {".txt", ".csv", ".tum"})) {
+    if (file.filename().string().find("pose") != std::string::npos) files.push_back(file.string());
+  }
+  return files;
+}
+
+/// " Its folder scans/ has scans: ...", if one of its folders has, or how to convert the dump of a
+/// known program; else empty.
 std::string scans_below_text(const fs::path& folder) {
+  const std::string script = "python3 examples/recipes/poses_of.py ";
+  if (is_folder(folder / "oxts") && is_folder(folder / "velodyne_points/data")) {
+    const fs::path calibration = (folder / "../calib_imu_to_velo.txt").lexically_normal();
+    return " It is a drive of KITTI raw. `" + script + "kitti-raw " + folder.string() + " " +
+           calibration.string() + "` writes its poses; then use " +
+           (folder / "velodyne_points/data").string() + " --poses " +
+           (folder / "poses.txt").string() + ".";
+  }
   for (const fs::path& below : folders_in(folder)) {
     if (list_files(below, cloud_extensions()).empty()) continue;
-    const fs::path poses = folder / "poses.txt";
+    if (is_file(below / "cloud.pcd") && is_file(below / "data")) {
+      return " It is a dump of hdl_graph_slam. `" + script + "hdl-graph-slam " + folder.string() +
+             " keyframes` makes keyframes, a folder of scans with poses.";
+    }
+    const std::vector<std::string> poses = pose_files(folder);
     return " Its folder " + below.filename().string() + "/ has scans: use " + below.string() +
-           " --poses " + (is_file(poses) ? poses.string() : "FILE") + ".";
+           " --poses " + (poses.size() == 1 ? poses[0] : "FILE") + "." +
+           (poses.size() > 1 ? " FILE may be one of " + join(poses) + "." : "");
   }
   return "";
 }
@@ -121,7 +145,7 @@ const SceneNames* scenes_of(const std::string& path) {
 }
 
 DeskewInput deskew_input(const Sequence& sequence) {
-  return {sequence.records, sequence.motion, sequence.stamps};
+  return {sequence.records, sequence.motion, sequence.stamps, !sequence.topics.empty()};
 }
 
 /// The clock of the points of a sequence; `sequence` gets notes on it.
@@ -146,30 +170,60 @@ void check_merged(const Sequence& sequence) {
   (void)sensor_positions(*sequence.records, sequence.scans->load(0), places);
 }
 
+/// The place of the sensor of each scan of several topics.
+std::vector<Eigen::Vector3d> places_of_topics(const Sequence& sequence) {
+  const SensorPlaces& given = *sequence.sensor_origin;
+  const std::string form = "Give --sensor-origin topic:0=X,Y,Z/1=X,Y,Z, in the order of --topic.";
+  std::vector<Eigen::Vector3d> places;
+  for (const std::size_t topic : sequence.topics) {
+    const auto found = given.by_number.find(static_cast<std::int64_t>(topic));
+    if (given.field == kTopicField && found != given.by_number.end()) {
+      places.push_back(found->second);
+      continue;
+    }
+    throw UsageError("--sensor-origin " + sensor_places_text(given) + ": has no place of topic " +
+                     std::to_string(topic) + " of sequence " + sequence.name + ". " + form);
+  }
+  return places;
+}
+
 void bring_to_sensor_origin(Sequence& sequence) {
+  if (!sequence.topics.empty()) {
+    sequence.scans =
+        std::make_shared<SensorOriginSource>(sequence.scans, places_of_topics(sequence));
+    return;
+  }
   if (!sequence.sensor_origin->field.empty()) return check_merged(sequence);
   const Eigen::Vector3d& origin = sequence.sensor_origin->one;
-  sequence.scans = std::make_shared<SensorOriginSource>(sequence.scans, origin);
+  sequence.scans = std::make_shared<SensorOriginSource>(
+      sequence.scans, std::vector<Eigen::Vector3d>(sequence.scans->size(), origin));
   if (sequence.motion == nullptr) return;
-  const Pose T_points_sensor(Eigen::Translation3d{origin});
-  sequence.motion = std::make_shared<SensorMotion>(sequence.motion->followed_by(T_points_sensor));
+  const MotionStep step{{}, Pose(Eigen::Translation3d{origin})};
+  sequence.motion = std::make_shared<SensorMotion>(sequence.motion->followed_by({step}));
 }
 
 }  // namespace
 
-Sequence open_sequence(const std::string& path, const SequenceOptions& options,
+Sequence open_sequence(const std::string& path, const SequenceOptions& given,
                        const OpenContext& context) {
+  SequenceOptions options = given;
+  const PoseWork pose_work = take_pose_work(options);
   const Layout* layout = recognised_layout(path);
   if (layout == nullptr) throw_unrecognised(path);
   if (!layout->scenes && layout->scan_folder.empty()) check_not_part(path, options);
   check_topics(*layout, path, options);
   Sequence sequence = layout->open(path, options, context);
   check_label_rule(sequence, options);
+  make_poses(sequence, pose_work, context);
   if (sequence.sensor_origin) bring_to_sensor_origin(sequence);
   std::optional<PointClock> clock;
   if (sequence.deskew) clock = point_clock_of(sequence);
   if (sequence.drop_ego.kind != EgoRegion::Kind::kNone) {
-    sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego);
+    std::optional<Eigen::Vector3d> up;
+    if (sequence.up_choice && sequence.up_choice->known()) {
+      up = sequence.up_choice->known()->direction;
+    }
+    sequence.scans = std::make_shared<EgoFreeSource>(sequence.scans, sequence.drop_ego, up);
   }
   // The ego vehicle is fixed in the sensor frame, so it is removed before the motion correction.
   if (clock) {
@@ -183,7 +237,10 @@ Sequence open_sequence(const std::string& path, const SequenceOptions& options,
 std::string sequence_name(const std::string& path, const SequenceOptions& options) {
   if (options.name) return *options.name;
   const SceneNames* scenes = scenes_of(path);
-  return scenes != nullptr ? scenes->sequence_name(path) : open_sequence(path, options).name;
+  if (scenes != nullptr) return scenes->sequence_name(path);
+  SequenceOptions quick = options;
+  (void)take_pose_work(quick);  // The name does not depend on the poses.
+  return open_sequence(path, quick).name;
 }
 
 std::vector<std::string> scene_names() {

@@ -5,6 +5,7 @@
 #include "datasets/deskew/deskew.h"
 #include "datasets/ego/ego_region.h"
 #include "datasets/ego/sensor_origin.h"
+#include "datasets/registration/reposed_source.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -47,7 +48,7 @@ DataRecord Sequence::record() const {
                   poses_file,
                   scans->sensor().name,
                   scans->sensor().basis};
-  data.up = up_text(up().direction);
+  data.up = axis_text(up().direction);
   data.up_source = up_source_name(up().source);
   data.scan_period_s = scan_period_s;
   data.range_m = range_m;
@@ -76,7 +77,9 @@ const ScanSource& stored_source(const Sequence& sequence) {
   const EgoFreeSource* without_ego = ego_free_source(sequence);
   const ScanSource& source = without_ego ? without_ego->whole() : *skewed_source(sequence);
   const auto* moved = dynamic_cast<const SensorOriginSource*>(&source);
-  return moved != nullptr ? moved->whole() : source;
+  const ScanSource& posed = moved != nullptr ? moved->whole() : source;
+  const auto* reposed = dynamic_cast<const ReposedSource*>(&posed);
+  return reposed != nullptr ? reposed->whole() : posed;
 }
 
 const FileScanSource* file_source(const Sequence& sequence) {

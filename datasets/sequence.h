@@ -40,7 +40,7 @@ struct SequenceOptions {
   std::optional<std::string> up;      ///< Up direction in the world, see `parse_up`.
   std::optional<EgoRegion> drop_ego;  ///< Points of the ego vehicle that are left out.
   std::optional<std::string> name;    ///< Name in results.
-  std::optional<std::string> topic;   ///< Topic of a bag with the scans.
+  std::optional<std::string> topic;   ///< Topic of a bag with the scans, or several with commas.
   std::optional<std::string> pose_topic;    ///< Topic of a bag with the poses of these scans.
   std::optional<std::string> point_layout;  ///< Fields of .bin and .npy files, "x y z intensity".
   std::optional<PointFrame> points;         ///< The frame that points are stored in.
@@ -85,10 +85,13 @@ struct Sequence {
   std::vector<std::string> damage = {};
   /// Files that were read other than scans and labels: pose files, times, T_sensor, settings.
   std::vector<std::filesystem::path> input_files = {};
-  /// The motion of the sensor, to correct motion within a scan. Null if the times are unknown.
+  /// The motion of the sensor, to correct motion within a scan; of several topics, the motion of
+  /// the first one's sensor. Null if the times are unknown.
   std::shared_ptr<const SensorMotion> motion = nullptr;
   /// The time of each scan on the clock of `motion`. Empty if there is no motion.
   std::vector<Nanoseconds> stamps = {};
+  /// The topic of each scan, as its position in --topic. Empty unless several topics are read.
+  std::vector<std::size_t> topics = {};
   /// Whether the user requested to correct motion within a scan.
   bool deskew = false;
   std::optional<std::string> point_time_unit = std::nullopt;  ///< As the user gave it.
@@ -101,7 +104,9 @@ struct Sequence {
   EgoRegion drop_ego;      ///< As the user gave it; left out of `scans` (see `EgoFreeSource`).
   std::string frames;      ///< The range as used, "2350:2670:2".
   std::string poses_file;  ///< Name of the pose file, without a path.
-  std::string source;      ///< Free text on origin and licence.
+  /// Estimated or refined poses of the frame of the stored points; empty: the poses are the user's.
+  std::vector<Pose> made_poses = {};
+  std::string source;  ///< Free text on origin and licence.
   std::optional<double> scan_period_s;
   /// Calibration "Tr" if the pose file has poses of a camera; the scans' poses contain it.
   std::optional<Pose> T_camera_lidar = std::nullopt;

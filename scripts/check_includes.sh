@@ -13,10 +13,10 @@
 rooms="core datasets|methods|eval benchmark python"
 folders="
 core                   . files process scan simd
-datasets               records clouds|fields|geometry registration trajectories bags ego|world_axes|deskew
+datasets               records clouds|fields|geometry registration trajectories odometry bags world_axes|deskew ego
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans|truth_map helimos
-datasets               simulation layouts open_sequence inspection
+datasets               simulation layouts sequence_poses open_sequence inspection
 datasets/bags          bag|bag_file bag_index|decompress|messages ros1|mcap|ros2 open_bag
 datasets/clouds        format las|numpy .
 datasets/simulation    shapes world sensor scene|street .

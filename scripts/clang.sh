@@ -45,8 +45,7 @@ analyse() {
 
 tidy() {
   needs clang-tidy
-  cmake -S . -B build/tidy -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRAYMOVAL_BUILD_TESTS=OFF \
-    -DRAYMOVAL_REPORT_3D=OFF >/dev/null || return 2
+  cmake -S . -B build/tidy -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRAYMOVAL_BUILD_TESTS=OFF >/dev/null || return 2
   local files=("$@")
   if [[ $# -eq 0 ]]; then
     mapfile -t files < <(git ls-files 'core/*.cpp' 'datasets/*.cpp' 'methods/*.cpp' 'eval/*.cpp' \

@@ -19,7 +19,7 @@ packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev liboctomap-dev nlohmann-json3-dev
   catch2 librapidcheck-dev libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libfmt-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
-  liblz4-dev libzstd-dev libsqlite3-dev libyaml-cpp-dev libzip-dev libcairo2-dev fonts-dejavu-core esbuild libjs-three
+  liblz4-dev libzstd-dev libsqlite3-dev libyaml-cpp-dev libzip-dev libcairo2-dev fonts-dejavu-core
 )
 tests=(clang-format git procps python3-numpy python3-yaml python3-jsonschema)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
@@ -40,8 +40,8 @@ for argument in "$@"; do
 done
 packages+=(${pcl[@]+"${pcl[@]}"})
 
-# Reports are without their 3-D view, or a test is left out, where a system has no package of these.
-optional=" esbuild libjs-three chromium snakemake mypy doxygen texlive-latex-base texlive-latex-recommended "
+# A test is left out where a system has no package of these.
+optional=" chromium snakemake mypy doxygen texlive-latex-base texlive-latex-recommended "
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_dependencies.sh: this is no Debian or Ubuntu (no apt-get or no dpkg-query), so nothing is installed." >&2
@@ -51,7 +51,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   fi
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
-  if cmake -S "$(dirname "${BASH_SOURCE[0]}")/.." -B "$work" -DRAYMOVAL_REPORT_3D=OFF \
+  if cmake -S "$(dirname "${BASH_SOURCE[0]}")/.." -B "$work" \
       -DRAYMOVAL_PCL="$([[ ${#pcl[@]} -gt 0 ]] && echo ON || echo OFF)" >"$work/log" 2>&1; then
     echo "CMake finds all that it needs here."
     exit 0

@@ -72,7 +72,7 @@ build_from() {
   # Files do not contain their build folder, even with -g or an assertion.
   "${apart[@]}" cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$source=." -DRAYMOVAL_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON \
-    -DRAYMOVAL_PYTHON=ON -DRAYMOVAL_REPORT_3D=ON >"$2/log.txt" 2>&1 &&
+    -DRAYMOVAL_PYTHON=ON >"$2/log.txt" 2>&1 &&
     "${apart[@]}" cmake --build "$build" ${RAYMOVAL_BUILD_JOBS:+-j "$RAYMOVAL_BUILD_JOBS"} >>"$2/log.txt" 2>&1 ||
     { tail -n 30 "$2/log.txt" >&2; fail "the build in $2 failed, see above."; }
   (cd "$build" && "${apart[@]}" cpack -B "$2/packages") >>"$2/log.txt" 2>&1 ||

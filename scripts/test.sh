@@ -58,7 +58,9 @@ run_tests() {
   [[ $status -eq 0 || $bad -gt 0 ]] || bad=1
   passed=$((passed + tests - (tests > 0 ? bad : 0)))
   failed=$((failed + bad))
-  [[ $bad -eq 0 ]] || failures+=("tests, $1: see above")
+  [[ $bad -eq 0 ]] && return
+  failures+=("tests, $1: $(sed -nE 's/.*<testcase name="([^"]*)".*status="fail".*/\1/p' "$junit" 2>/dev/null |
+    head -n 20 | paste -sd ';')")
 }
 
 # Lines that the tests of the sanitizers' build ran, by gcovr, in build/coverage/ROOM.html.
@@ -94,8 +96,7 @@ if [[ -z $all ]]; then
   step "reference results" scripts/check_reference.sh
 else
   step "dependencies" scripts/install_dependencies.sh --all
-  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_PCL="$pcl" -DRAYMOVAL_REPORT_3D=ON \
-    -DRAYMOVAL_PYTHON=ON
+  step "build" build release -DRAYMOVAL_WERROR=ON -DRAYMOVAL_PCL="$pcl" -DRAYMOVAL_PYTHON=ON
   run_tests release --label-regex extra
   step "sanitizer build" build asan-ubsan -DRAYMOVAL_PCL="$pcl"
   find build/asan-ubsan -name '*.gcda' -delete

@@ -77,7 +77,7 @@ races() {
   mkdir -p "$reports"
   # raymoval_threads does what is left out here, with more threads and data.
   sanitized ctest --preset tsan --no-tests=error -R "${1:-$in_parallel}" \
-    -E 'methods: any number of threads' || failed "unit tests: a failure or a race, see above."
+    -E 'methods:any number of threads' || failed "unit tests: a failure or a race, see above."
   sanitized build/tsan/raymoval_threads street 0:5 | tee build/tsan/methods.log
   [[ ${PIPESTATUS[0]} -eq 0 ]] || failed "methods: a race or a difference, see above."
   commands || failed "commands: a failure or a race, see build/tsan/commands.log."

@@ -137,7 +137,7 @@ void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
 }
 
 void CleanOutputs::add_views(const CleanPaths& paths, const CleanWriting& writing) {
-  const ViewTexts texts{sequence_.name, writing.method};
+  const ViewTexts texts{sequence_.name, writing.method, !sequence_.made_poses.empty()};
   if (!paths.page.empty()) {
     outputs_.push_back(std::make_unique<MapPageFile>(paths.page, texts, sequence_.upright_frame()));
   }
@@ -153,7 +153,7 @@ void CleanOutputs::add(const Scan& scan, const Mask& mask, const std::string& co
   const PointRecords* records = stored ? &*stored : nullptr;
   ScanRows rows = rows_ ? rows_->rows(scan, records) : ScanRows{};
   if (has_confidence_) rows = rows_with_confidence(rows, layout_, confidence);
-  const CleanedScan cleaned{scan, mask, rows, records};
+  const CleanedScan cleaned{scan, mask, rows, records, confidence};
   for (const auto& output : outputs_) output->add(cleaned);
 }
 

@@ -37,7 +37,7 @@ class CleanOutputs {
                Progress& progress, const std::atomic<bool>& cancel);
 
   /// Scans come in order. @param mask 1 = removed, 0 = kept, `kLeftOutMask` = in no output
-  /// @param confidence of each point in steps (`kConfidenceSteps`), if it is written
+  /// @param confidence of each point in steps (`kConfidenceSteps`), if it is written or shown
   void add(const Scan& scan, const Mask& mask, const std::string& confidence = {});
   /// Finishes all outputs, which may fail on a full disk, and then renames them.
   void commit();

@@ -113,12 +113,13 @@ std::vector<std::string> remedies(std::uint64_t removed, std::uint64_t points,
     advice.push_back(
         "little was removed: if moving objects are left, check the poses and units (`raymoval "
         "inspect " +
-        path + "`).");
+        path + "` with the same options).");
   }
   advice.push_back(
       "if parts of walls or ground are missing, the poses are wrong in most cases: `raymoval "
       "inspect " +
-      path + "`; if points of the ego vehicle are left, try --drop-ego auto.");
+      path +
+      "` with the same options; if points of the ego vehicle are left, try --drop-ego auto.");
   if (!is_seen) advice.push_back("look at the map with --html map.html or --picture map.png.");
   return advice;
 }

@@ -47,10 +47,10 @@ CleanedCloud read_cleaned_cloud(const std::filesystem::path& path, const Eigen::
 
 namespace {
 
-/// Static points of a sequence in the world frame, or their means by cell.
-class StaticPoints {
+/// Points of a sequence in the world frame, or their means by cell.
+class MapPoints {
  public:
-  explicit StaticPoints(double voxel_size) : voxel_size_(voxel_size) {}
+  explicit MapPoints(double voxel_size) : voxel_size_(voxel_size) {}
   void add(const Eigen::Vector3d& point) {
     if (voxel_size_ <= 0.0) {
       points_.push_back(point.cast<float>());
@@ -80,23 +80,33 @@ class StaticPoints {
   VoxelMap<Cell> cells_;
 };
 
-}  // namespace
-
-CleanedCloud oracle_cloud(const Sequence& sequence, double voxel_size, Progress* progress) {
-  StaticPoints kept(voxel_size);
+/// @param moving whether moving points are part of it
+CleanedCloud labelled_cloud(const Sequence& sequence, bool moving, double voxel_size,
+                            Progress* progress) {
+  MapPoints kept(voxel_size);
   const LocalFrameSource scans(*sequence.scans, lattice_frame(*sequence.scans));
   if (progress != nullptr) progress->begin("the oracle's cloud", scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Scan scan = scans.load(i);
     const std::vector<std::uint32_t> words = sequence.labels->labels(scan);
     for (std::size_t k = 0; k < words.size(); ++k) {
-      if (sequence.label_rule.classify(words[k]) == LabelClass::kMoving) continue;
+      if (!moving && sequence.label_rule.classify(words[k]) == LabelClass::kMoving) continue;
       kept.add(scan.T_world_sensor * scan.points[k].cast<double>());
     }
     if (progress != nullptr) progress->advance();
   }
   if (progress != nullptr) progress->end();
   return cleaned_cloud(kept.points());
+}
+
+}  // namespace
+
+CleanedCloud oracle_cloud(const Sequence& sequence, double voxel_size, Progress* progress) {
+  return labelled_cloud(sequence, false, voxel_size, progress);
+}
+
+CleanedCloud whole_cloud(const Sequence& sequence, double voxel_size, Progress* progress) {
+  return labelled_cloud(sequence, true, voxel_size, progress);
 }
 
 }  // namespace raymoval

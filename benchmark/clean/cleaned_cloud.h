@@ -35,5 +35,7 @@ CleanedCloud read_cleaned_cloud(const std::filesystem::path& path,
 /// result of a perfect method.
 /// @param voxel_size in metres; 0 keeps every point
 CleanedCloud oracle_cloud(const Sequence& sequence, double voxel_size, Progress* progress);
+/// The same with all points: the result of a method that removes nothing.
+CleanedCloud whole_cloud(const Sequence& sequence, double voxel_size, Progress* progress);
 
 }  // namespace raymoval

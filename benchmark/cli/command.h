@@ -117,6 +117,16 @@ struct OutputFlag {
   void write(const std::string& content) const;
 };
 
+/// The option --write-poses of a command that opens a sequence.
+struct PosesFlag {
+  OutputFlag file;
+
+  /// @param with_overwrite whether the command has no --overwrite of its own
+  void add_to(CommandOptions& options, bool with_overwrite);
+  /// Writes the poses of `sequence` if a file was given. @throws UsageError, DataError
+  void write(const Sequence& sequence) const;
+};
+
 /// Prints how a sequence was opened, unless progress is quiet. Always warns of scans that are lost.
 void report_opening(const Sequence& sequence, Progress& progress);
 

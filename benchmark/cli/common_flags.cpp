@@ -12,6 +12,7 @@
 #include "core/terminal_colour.h"
 #include "core/text.h"
 #include "datasets/reading/left_out.h"
+#include "datasets/sequence_poses.h"
 
 namespace raymoval {
 
@@ -83,6 +84,24 @@ void OutputFlag::write(const std::string& content) const {
   if (!path.empty()) write_atomically(output_target(path), content);
 }
 
+void PosesFlag::add_to(CommandOptions& options, bool with_overwrite) {
+  const std::string sentence =
+      "Also write the poses of the scans, as --poses reads them: in TUM's format, or in KITTI's if "
+      "the name ends in .kitti or _kitti.txt";
+  file.option = "--write-poses";
+  if (with_overwrite) {
+    file.add_to(options, file.option, sentence);
+  } else {
+    options.add(file.option, "FILE", file.path, sentence);
+  }
+}
+
+void PosesFlag::write(const Sequence& sequence) const {
+  if (file.path.empty()) return;
+  file.check_is_none_of(sequence.input_files);
+  file.write(pose_file_text(sequence, file.path));
+}
+
 void report_opening(const Sequence& sequence, Progress& progress) {
   progress.end();  // The messages get lines of their own.
   for (const std::string& line : sequence.notes) progress.say(sequence.name + ": " + line);
@@ -114,7 +133,10 @@ std::vector<std::filesystem::path> SequenceFlags::files() const {
   std::vector<std::filesystem::path> files;
   const std::string& rule = text("label-rule");
   if (!rule.empty() && is_rule_file(rule)) files.emplace_back(rule);
-  if (!text("poses").empty()) files.emplace_back(text("poses"));
+  const std::string& poses = text("poses");
+  constexpr std::string_view kRefine = "refine:";
+  if (!poses.empty())
+    files.emplace_back(poses.substr(poses.starts_with(kRefine) ? kRefine.size() : 0));
   return files;
 }
 

@@ -91,8 +91,9 @@ ScanSpool spool_of(const MethodTask& task, const char* what) {
 
 MethodAnswer run_remover(Remover& remover, const MethodTask& task) {
   const std::string& name = task.request->name;
-  // The frame of all methods. Masks are by point index, so they need no transformation back.
-  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame());
+  // The frames of all methods. Masks are by point index, so they need no transformation back.
+  const LocalFrameSource local(*task.sequence->scans, task.sequence->method_frame(),
+                               spin_axis_of(*task.sequence));
   const TimedSource scans(local, online_rule(task));
   CheckedSink sink(name, scans, MaskStore(spool_of(task, "masks")));
   StageTimes times;

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/sampling.h"
+#include "core/scan/local_frame.h"
 #include "datasets/clouds/file_source.h"
 #include "datasets/clouds/returns.h"
 #include "datasets/ego/sensor_places.h"
@@ -207,7 +209,8 @@ class SplitSensors : public Remover {
     if (context.reasons != nullptr) inner.reasons = &reasons.emplace(pieces, *context.reasons);
     std::optional<JoinedEvidence> evidence;
     if (context.evidence != nullptr) inner.evidence = &evidence.emplace(pieces, *context.evidence);
-    method_->run(pieces, masks, inner);
+    const LocalFrameSource upright(pieces, Pose::Identity(), pieces.sensor().spin_axis);
+    method_->run(upright, masks, inner);
   }
 
  private:
@@ -215,11 +218,26 @@ class SplitSensors : public Remover {
   const Sequence& sequence_;
 };
 
+/// Whether a cloud has points of several sensors. Scans of several topics are apart already.
+bool is_merged(const Sequence& sequence) {
+  return sequence.sensor_origin && !sequence.sensor_origin->field.empty() &&
+         sequence.topics.empty();
+}
+
 }  // namespace
+
+Eigen::Vector3d spin_axis_of(const Sequence& sequence) {
+  if (is_merged(sequence)) return Eigen::Vector3d::UnitZ();
+  const ScanSource& source = *sequence.scans;
+  if (source.sensor().is_estimated()) return source.sensor().spin_axis;
+  std::vector<Scan> scans;
+  for (const std::size_t i : evenly_spread(source.size(), 5)) scans.push_back(source.load(i));
+  return estimate_spin_axis(scans);
+}
 
 std::unique_ptr<Remover> with_split_sensors(std::unique_ptr<Remover> method,
                                             const Sequence& sequence) {
-  if (!sequence.sensor_origin || sequence.sensor_origin->field.empty()) return method;
+  if (!is_merged(sequence)) return method;
   return std::make_unique<SplitSensors>(std::move(method), sequence);
 }
 

@@ -106,7 +106,7 @@ std::string rows_html(const TextTable& table, const std::vector<ColumnStyle>& lo
   for (std::size_t r = range.first; r < range.end; ++r) {
     const TableRow& row = table.rows[r];
     if (row.summary != summary) continue;
-    html += "<tr><th scope=\"row\">" + html_text(row.label) + "</th>";
+    html += "<tr><th scope=\"row\">" + html_name(row.label) + "</th>";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const std::string look = heat && i > 0 ? " class=\"number heat\"" + heat_of(row.cells[i])
                                              : looks[i].classes(lines);

@@ -17,90 +17,78 @@ TableCell mean_over_sequences(const RunResults& results, const std::string& cell
                    results.sequences.size());
 }
 
-std::string fact(const std::string& name, const std::string& value, const std::string& more,
-                 const char* look = "") {
-  return "<div><dt>" + html_text(name) + "</dt><dd class=\"" + look + "\">" + html_name(value) +
-         (more.empty() ? "" : "<small>" + html_text(more) + "</small>") + "</dd></div>\n";
-}
-
 std::string chart_html(const Chart& chart) {
-  return chart.empty() ? "" : "<div class=\"chart\">" + chart.svg("") + "</div>\n";
-}
-
-/// The method with the best mean of the first protocol's main rate.
-std::pair<std::string, std::string> best_method(const RunResults& results) {
-  std::pair<std::string, std::string> best;
-  if (results.protocols.empty()) return best;
-  const std::string& protocol = results.protocols.front();
-  const std::string rate = results.headline_of(protocol);
-  if (rate.empty()) return best;
-  std::optional<double> highest;
-  for (const std::string& method : results.methods) {
-    if (results.is_control(method)) continue;
-    const TableCell mean = mean_over_sequences(results, method, protocol, rate);
-    if (!mean.value || (highest && !rate_spec(rate).is_better(*mean.value, *highest))) continue;
-    highest = mean.value;
-    best = {method, "mean " + rate + " " + mean.text + " by " + protocol};
-  }
-  return best;
+  return chart.empty() ? ""
+                       : "<div class=\"chart\" style=\"--width:" + length_text(chart.width()) +
+                             "px\">" + chart.svg("") + "</div>\n";
 }
 
 }  // namespace
 
 std::string facts_html(const ResultsRecord& record, const RunResults& results) {
-  std::string html = "<dl class=\"facts\">\n";
-  const auto [best, why] = best_method(results);
-  if (!best.empty()) html += fact("Most accurate", best, why);
-  html += fact("Methods", std::to_string(results.methods.size()), "controls included");
   std::size_t scans = 0;
-  for (const SequenceRecord& sequence : record.run.sequences) {
-    scans += sequence.data.scans;
-  }
-  html +=
-      fact("Sequences", std::to_string(results.sequences.size()), grouped_text(scans) + " scans");
-  html += fact("Cells", std::to_string(results.cells.size()),
-               results.missing.empty() ? "" : std::to_string(results.missing.size()) + " not run");
+  for (const SequenceRecord& sequence : record.run.sequences) scans += sequence.data.scans;
+  const auto bad = [](const std::string& text) {
+    return "<strong class=\"bad\">" + text + "</strong> ";
+  };
+  std::string html = "<p>" + counted_text(results.methods.size(), "method") +
+                     ", controls included, on " +
+                     counted_text(results.sequences.size(), "sequence") + " with " +
+                     counted_text(scans, "scan") + ". ";
   const auto failed = std::ranges::count_if(results.cells, [](auto& cell) { return !cell.ok(); });
-  html += fact("Failed cells", std::to_string(failed), failed == 0 ? "" : "see below",
-               failed == 0 ? "good" : "bad");
-  const bool checked = record.controls_checked;
-  const bool off = !results.control_problems.empty();
-  html += fact("Controls",
-               !checked ? "not checked"
-               : off    ? "off"
-                        : "expected scores",
-               off ? join(results.control_problems, "; ") : "",
-               off       ? "bad"
-               : checked ? "good"
-                         : "");
-  return html + "</dl>\n";
+  if (failed > 0)
+    html += bad(counted_text(static_cast<std::size_t>(failed), "failed cell") + ", see below.");
+  if (!results.missing.empty())
+    html += bad(counted_text(results.missing.size(), "cell") + " not run.");
+  if (!results.control_problems.empty()) {
+    html += bad(html_text("Controls are off: " + join(results.control_problems, "; ") + "."));
+  } else {
+    html += record.controls_checked ? "All controls have their expected scores."
+                                    : "The controls were not checked.";
+  }
+  return html + "</p>\n";
 }
 
 std::string methods_html(const RunResults& results) {
   TextTable table{"Each method over all sequences", "method"};
-  std::vector<std::string> shown;
-  for (const std::string& protocol : results.protocols) {
-    const std::vector<std::string> rates = results.rates_of(protocol);
-    if (rates.empty()) continue;
-    table.groups.push_back({protocol + ", mean", rates});
-    shown.insert(shown.end(), rates.begin(), rates.end());
+  // On a narrow screen, the main rate and the time are visible beside the name.
+  const std::string first = results.protocols.empty() ? "" : results.protocols.front();
+  const std::string main_rate = first.empty() ? "" : results.headline_of(first);
+  std::vector<std::pair<std::string, std::string>> shown;  // Protocol and rate.
+  if (!main_rate.empty()) {
+    table.groups.push_back({first + ", mean", {main_rate}});
+    shown.emplace_back(first, main_rate);
   }
   table.groups.push_back({"cost", {kTimeHeading, "peak MiB"}});
+  const std::size_t costs = shown.size();
+  for (const std::string& protocol : results.protocols) {
+    TableGroup group{protocol + ", mean", {}};
+    for (const std::string& rate : results.rates_of(protocol)) {
+      if (protocol == first && rate == main_rate) continue;
+      group.columns.push_back(rate);
+      shown.emplace_back(protocol, rate);
+    }
+    if (!group.columns.empty()) table.groups.push_back(std::move(group));
+  }
   for (const std::string& method : methods_best_first(results)) {
     TableRow row{method, {}, results.is_control(method)};
-    for (const std::string& protocol : results.protocols) {
-      for (const std::string& rate : results.rates_of(protocol)) {
-        row.cells.push_back(mean_over_sequences(results, method, protocol, rate));
-      }
+    for (const auto& [protocol, rate] : shown) {
+      row.cells.push_back(mean_over_sequences(results, method, protocol, rate));
     }
-    for (TableCell& cell : cost_cells(results, method, "n/a")) row.cells.push_back(cell);
+    const auto cost = cost_cells(results, method, "n/a");
+    row.cells.insert(row.cells.begin() + static_cast<std::ptrdiff_t>(costs), cost.begin(),
+                     cost.end());
     table.rows.push_back(std::move(row));
   }
+  std::vector<std::string> rates;
+  for (const auto& [protocol, rate] : shown) rates.push_back(rate);
   for (std::size_t i = 0; i < shown.size() + 2; ++i) {
-    mark_best(table, i, i < shown.size() && rate_spec(shown[i]).higher_is_better);
+    const bool is_cost = i >= costs && i < costs + 2;
+    const std::size_t rate = i < costs ? i : i - 2;
+    mark_best(table, i, !is_cost && rate_spec(rates[rate]).higher_is_better);
   }
   table.notes.push_back(
-      rate_units_text(shown) +
+      rate_units_text(rates) +
       " Bold: best, underlined: second; controls are listed below and not ranked. (4/5): the mean "
       "is over the 4 of 5 sequences that have a value. Click a heading to sort.");
   add_change_notes(results, table);

@@ -40,29 +40,7 @@ void append_differences(const std::vector<std::uint16_t>& values, std::string& b
   }
 }
 
-/// The origin and the resolution of the points' coordinates.
-struct Frame {
-  std::array<std::int32_t, 3> origin{};  ///< Voxels.
-  int shift = 0;                         ///< 2^shift steps are one unit of a coordinate.
-};
-
-Frame frame_of(const std::vector<ShownPoint>& points) {
-  Frame frame;
-  std::int64_t widest = 0;
-  for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
-    const auto [low, high] = std::minmax_element(
-        points.begin(), points.end(),
-        [&](const auto& a, const auto& b) { return a.step[axis] < b.step[axis]; });
-    frame.origin[axis] = static_cast<std::int32_t>(
-        std::floor(static_cast<double>(low->step[axis]) / kStepsPerVoxel));
-    widest = std::max(
-        widest, std::int64_t{high->step[axis]} - std::int64_t{frame.origin[axis]} * kStepsPerVoxel);
-  }
-  while (widest >> frame.shift >= 1 << kBits) ++frame.shift;
-  return frame;
-}
-
-std::string geometry_bytes(const Scene& scene, const Frame& frame) {
+std::string geometry_bytes(const Scene& scene, const PageFrame& frame) {
   std::string bytes;
   std::vector<std::uint16_t> values(scene.points.size());
   for (int axis = 0; axis < 3; ++axis) {
@@ -103,7 +81,7 @@ ordered_json cell_record(const SceneCell& cell, const VerdictCounts& counts) {
 }
 
 /// The trajectory in centimetres' precision, from the frame's origin.
-ordered_json trajectory_record(const Scene& scene, const Frame& frame) {
+ordered_json trajectory_record(const Scene& scene, const PageFrame& frame) {
   ordered_json record = ordered_json::array();
   for (const Eigen::Vector3d& position : scene.trajectory) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -165,9 +143,28 @@ std::string page_data(const std::vector<std::string>& heads) {
                      fmt::join(heads, ","));
 }
 
+PageFrame page_frame(const std::vector<ShownPoint>& points) {
+  PageFrame frame;
+  for (;; ++frame.shift) {
+    // The corner is a whole number of units, so that units and cells of several units have common
+    // borders.
+    const std::int64_t edge =
+        std::max<std::int64_t>(kStepsPerVoxel, std::int64_t{1} << frame.shift);
+    std::int64_t widest = 0;
+    for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
+      const auto [low, high] = std::ranges::minmax(
+          points, {}, [axis](const ShownPoint& point) { return point.step[axis]; });
+      const std::int64_t corner = low.step[axis] - (low.step[axis] % edge + edge) % edge;
+      frame.origin[axis] = static_cast<std::int32_t>(corner / kStepsPerVoxel);
+      widest = std::max(widest, high.step[axis] - corner);
+    }
+    if (widest >> frame.shift < 1 << kBits) return frame;
+  }
+}
+
 PackedScene pack_scene(const Scene& scene, std::size_t number) {
   ordered_json head;
-  const Frame frame = frame_of(scene.points);
+  const PageFrame frame = page_frame(scene.points);
   const std::string prefix = "scene-" + std::to_string(number);
   head["sequence"] = scene.sequence;
   head["stream"] = prefix;
@@ -197,6 +194,13 @@ PackedScene pack_scene(const Scene& scene, std::size_t number) {
   packed.streams.emplace_back(prefix, base64(deflated(geometry_bytes(scene, frame))));
   for (std::size_t i = 0; i < scene.cells.size(); ++i) {
     head["cells"].push_back(cell_record(scene.cells[i], scene.counts[i]));
+  }
+  if (scene.is_unlabelled) {
+    const std::string review = script_json(to_json(scene.review));
+    packed.streams.emplace_back(prefix + "-review", base64(deflated(review)));
+    head["confidences"] = scene.confidences;
+  }
+  for (std::size_t i = 0; i < scene.verdicts.size(); ++i) {
     const std::vector<std::uint8_t>& bytes = scene.verdicts[i];
     packed.streams.emplace_back(
         prefix + "-" + std::to_string(i),

@@ -131,10 +131,10 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
   const RunResults& results = request.run->results();
   std::vector<PageSection> sections = {
       {"methods", "Methods", methods_html(results)},
-      {"failures", "Failed cells", failures_html(results)},
-      {"changes", "Changes", ""},
-      {"charts", "Charts", charts_html(results)},
       {"points", "Points", points_html(request, points)},
+      {"changes", "Changes", ""},
+      {"failures", "Failed cells", failures_html(results)},
+      {"charts", "Charts", charts_html(results)},
       {"losses", "Losses", losses_html(results)},
       {"confidence", "Confidence", confidence_html(results)},
       {"accuracy", "Accuracy", accuracy_html(results, request.published)},
@@ -178,11 +178,6 @@ std::string title_of(const RunResults& results) {
          listed(results.sequences, "sequences");
 }
 
-std::string subtitle(const RunResults& results) {
-  return "Which points are removed, and how well: " + join(results.sequences) + "; scored by " +
-         join(results.protocols);
-}
-
 /// Everything before <body>.
 std::string head_html(const std::string& title) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -194,40 +189,28 @@ std::string head_html(const std::string& title) {
          std::string(page_file("page.css")) + "</style>\n</head>\n";
 }
 
-/// @param with_view whether the page has the 3-D view, whose licence the footer then names
-std::string footer_html(bool with_view) {
-  std::string html =
-      "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.";
-  if (with_view) {
-    html += " Its 3-D view contains three.js " RAYMOVAL_THREE_VERSION
-            ", under the MIT licence.</p>\n<details><summary>Licence of three.js</summary>\n<pre>" +
-            html_text(std::string(page_file("three_licence.txt"))) + "</pre></details";
-  } else {
-    html += "</p";
-  }
-  return html + "></footer>\n";
-}
+constexpr const char* kFooter =
+    "<footer><p>Made by raymoval " RAYMOVAL_VERSION ". This file needs no network.</p></footer>\n";
 
 /// The scripts of a page, and their data.
+/// @param view the script of the view, see `page_file`
 /// @param scenes the heads of `PackedScene`s; none: there is no view
 /// @param streams those of all scenes
-std::string scripts_html(const std::vector<std::string>& scenes,
+std::string scripts_html(const char* view, const std::vector<std::string>& scenes,
                          const std::vector<std::pair<std::string, std::string>>& streams) {
   std::string html = "<script>\n" + std::string(page_file("page.js")) + "</script>\n";
   if (scenes.empty()) return html;
   for (const auto& [id, text] : streams) {
     html += "<script type=\"application/octet-stream\" id=\"" + id + "\">" + text + "</script>\n";
   }
-  html += "<script type=\"application/json\" id=\"scenes\">" + page_data(scenes) +
-          "</script>\n<script>\n" + std::string(page_file("view.js")) + "</script>\n";
+  html += "<script type=\"application/json\" id=\"scenes\">" + page_data(scenes) + "</script>\n";
+  for (const char* script : {"scene_data.js", "stage.js", view}) {
+    html += "<script>\n" + std::string(page_file(script)) + "</script>\n";
+  }
   return html;
 }
 
 }  // namespace
-
-bool has_page_view() {
-  return !page_file("view.js").empty();
-}
 
 Page make_page(const PageRequest& request) {
   const RunResults& results = request.run->results();
@@ -237,12 +220,11 @@ Page make_page(const PageRequest& request) {
   const std::string title = title_of(results);
   std::string html = head_html(title) +
                      "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
-                     html_name(title) + "</h1>\n<p>" + html_text(subtitle(results)) +
-                     "</p></header>\n" + navigation_html(sections) + "<main id=\"main\">\n" +
-                     facts_html(request.run->record(), results);
+                     html_name(title) + "</h1>\n" + facts_html(request.run->record(), results) +
+                     "</header>\n" + navigation_html(sections) + "<main id=\"main\">\n";
   for (const PageSection& section : sections) html += html_section(section);
-  html += "</main>\n" + footer_html(!points.scenes.empty()) +
-          scripts_html(points.scenes, points.streams) + "</body>\n</html>\n";
+  html += "</main>\n" + std::string(kFooter) +
+          scripts_html("report.js", points.scenes, points.streams) + "</body>\n</html>\n";
   return {std::move(html), std::move(points.warnings)};
 }
 
@@ -252,13 +234,9 @@ std::string map_page(const Scene& scene, const std::string& title,
   return head_html(title) +
          "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
          html_name(title) + "</h1>\n<button type=\"button\" id=\"theme\">Dark</button></header>\n" +
-         "<main id=\"main\">\n" +
-         html_section({"points", "Map",
-                       std::string(page_file("view.html")) +
-                           "<noscript><p>The 3-D view needs JavaScript.</p>"
-                           "</noscript>\n"}) +
-         html_section({"facts", "What was done", html_list(lines)}) + "</main>\n" +
-         footer_html(true) + scripts_html({packed.head}, packed.streams) + "</body>\n</html>\n";
+         "<main id=\"main\">\n" + std::string(page_file("review.html")) +
+         html_section({"facts", "What was done", html_list(lines)}) + "</main>\n" + kFooter +
+         scripts_html("review.js", {packed.head}, packed.streams) + "</body>\n</html>\n";
 }
 
 }  // namespace raymoval

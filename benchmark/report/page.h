@@ -11,9 +11,6 @@
 
 namespace raymoval {
 
-/// Whether the program was built with the 3-D view.
-bool has_page_view();
-
 /// The content of a page.
 struct PageRequest {
   const KeptRun* run = nullptr;
@@ -39,8 +36,8 @@ struct Page {
 /// @throws Cancelled; DataError if `points_needed` and a sequence cannot be opened
 Page make_page(const PageRequest& request);
 
-/// A cleaned map as one self-contained HTML file: the 3-D view of kept and removed points, and some
-/// lines of text below it.
+/// A cleaned map as one self-contained HTML file in which a reader corrects it and exports the
+/// corrections (see `Edits`), and some lines of text below it.
 /// @param scene of a `MapSceneBuilder`
 std::string map_page(const Scene& scene, const std::string& title,
                      const std::vector<std::string>& lines);

@@ -5,9 +5,7 @@
 
 namespace raymoval {
 
-/// A file of benchmark/report/web as it was when the program was built: "page.css", "page.js",
-/// "view.html", "view.js" (the bundled 3-D view) or "three_licence.txt". The last three are empty
-/// if the program was built without the 3-D view.
+/// A file of benchmark/report/web as it was when the program was built, such as "page.css".
 std::string_view page_file(std::string_view name);
 
 }  // namespace raymoval

@@ -11,6 +11,7 @@
 
 #include "benchmark/result/removals/reasons.h"
 #include "core/morton.h"
+#include "core/scan/confidence_store.h"
 #include "core/scan/local_frame.h"
 #include "eval/columns/removal_tally.h"
 
@@ -20,10 +21,6 @@ namespace {
 /// The first size of cells, if no point was thinned before.
 constexpr int kFirstCell = kStepsPerVoxel / 4;
 constexpr int kLargestCell = 1 << 24;
-
-std::int64_t floor_divide(std::int64_t value, std::int64_t by) {
-  return value >= 0 ? value / by : -((-value + by - 1) / by);
-}
 
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   return VoxelKeyHash{}(hash * 0x9E3779B97F4A7C15ULL + value);
@@ -51,27 +48,6 @@ Morton morton_of(const ShownPoint& point) {
   return code;
 }
 
-/// The position of a point in steps, of which `kStepsPerVoxel` are an edge of a `kPageVoxel`. It is
-/// always within the voxel of `voxel_index`, despite rounding.
-/// @throws DataError beyond what 32 bits hold
-std::array<std::int32_t, 3> steps_of(const Eigen::Vector3d& world) {
-  constexpr double kMost = std::numeric_limits<std::int32_t>::max() - kStepsPerVoxel;
-  std::array<std::int32_t, 3> steps{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double place = world[axis] * (1.0 / kPageVoxel);
-    const double voxel = std::floor(place);
-    const double inside = world[axis] / kPageVoxel - voxel;
-    const double step =
-        std::clamp(std::floor(inside * kStepsPerVoxel), 0.0, double{kStepsPerVoxel - 1});
-    const double steps_from_zero = voxel * kStepsPerVoxel + step;
-    if (!(std::abs(steps_from_zero) <= kMost)) {
-      throw_voxel_out_of_range(world.x(), world.y(), world.z(), kPageVoxel);
-    }
-    steps[axis] = static_cast<std::int32_t>(steps_from_zero);
-  }
-  return steps;
-}
-
 /// Puts the points of both sets, and their verdicts, into `scene`, in an order in which neighbours
 /// in space are near each other.
 void gather_points(const ReportPoints& first, const ReportPoints& second, Scene& scene) {
@@ -91,7 +67,8 @@ void gather_points(const ReportPoints& first, const ReportPoints& second, Scene&
     return codes[a] != codes[b] ? codes[a] < codes[b] : a < b;
   });
   scene.points.reserve(count);
-  scene.verdicts.assign(scene.cells.size(), std::vector<std::uint8_t>(count));
+  const std::size_t bytes = count == 0 ? scene.cells.size() : set_of(0).first.verdict(0).size();
+  scene.verdicts.assign(bytes, std::vector<std::uint8_t>(count));
   for (std::size_t i = 0; i < count; ++i) {
     const auto [set, place] = set_of(order[i]);
     scene.points.push_back(set.points()[place]);
@@ -181,7 +158,7 @@ class SceneBuilder {
       error_group = error_group * 0x100000001B3ULL + (removed ? 2 : 1);
     }
     if (kind == LabelClass::kIgnored) group = ~std::uint64_t{0};
-    const ShownPoint shown{steps_of(scan.T_world_sensor * scan.points[point].cast<double>()),
+    const ShownPoint shown{map_steps(scan.T_world_sensor * scan.points[point].cast<double>()),
                            static_cast<std::uint32_t>(scan.index), semantic_id(word)};
     (wrong ? errors_ : others_).add(shown, wrong ? error_group : group, bytes_);
   }
@@ -209,8 +186,8 @@ class SceneBuilder {
 // in tens of millions of reports, and costs one shown point.
 std::uint64_t ReportPoints::key(const ShownPoint& point, std::uint64_t group) const {
   std::uint64_t hash = group;
-  for (const std::int32_t step : point.step) {
-    hash = mixed(hash, static_cast<std::uint64_t>(floor_divide(step, cell_)));
+  for (const std::int32_t place : map_cell(point.step, cell_)) {
+    hash = mixed(hash, static_cast<std::uint64_t>(std::int64_t{place}));
   }
   return hash;
 }
@@ -237,6 +214,16 @@ void ReportPoints::grow_cells() {
     return;
   }
   cell_ = cell_ == 0 ? kFirstCell : cell_ + std::max(1, cell_ / 4);
+  thin();
+}
+
+void ReportPoints::align(int steps) {
+  if (cell_ % steps == 0) return;
+  cell_ += steps - cell_ % steps;
+  thin();
+}
+
+void ReportPoints::thin() {
   taken_.clear();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -267,9 +254,9 @@ Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::s
 MapSceneBuilder::MapSceneBuilder(const std::string& sequence, const std::string& method,
                                  const Pose& T_upright_world, std::size_t limit)
     : limit_(limit),
-      removed_(static_cast<std::size_t>(kRemovedShare * static_cast<double>(limit)), 1,
+      removed_(static_cast<std::size_t>(kRemovedShare * static_cast<double>(limit)), 2,
                kStepsPerVoxel),
-      kept_(limit, 1, kStepsPerVoxel) {
+      kept_(limit, 2, kStepsPerVoxel) {
   scene_.sequence = sequence;
   scene_.T_upright_world = T_upright_world;
   scene_.is_unlabelled = true;
@@ -277,27 +264,43 @@ MapSceneBuilder::MapSceneBuilder(const std::string& sequence, const std::string&
   scene_.counts.resize(1);
   scene_.labels = {{kKeptId, "kept", LabelClass::kStatic},
                    {kRemovedId, "removed", LabelClass::kMoving}};
+  scene_.review.sequence = sequence;
+  scene_.review.method = method;
+  scene_.review.R_upright_world = T_upright_world.linear();
 }
 
-void MapSceneBuilder::add_scan(const std::string& name, const Eigen::Vector3d& sensor) {
-  scene_.scans.push_back(name);
-  scene_.trajectory.push_back(scene_.T_upright_world * sensor);
-}
-
-void MapSceneBuilder::add_point(const Eigen::Vector3d& world, bool removed) {
-  ++scene_.points_in_range;
-  ++(removed ? scene_.counts[0].true_positive : scene_.counts[0].kept_static);
-  const auto scan = static_cast<std::uint32_t>(scene_.scans.size() - 1);
-  const std::array<std::uint8_t, 1> verdict = {static_cast<std::uint8_t>(removed ? 1 : 0)};
-  const ShownPoint shown{steps_of(scene_.T_upright_world * world), scan,
-                         removed ? kRemovedId : kKeptId};
-  (removed ? removed_ : kept_).add(shown, removed ? scan + 1 : 0, verdict);
+void MapSceneBuilder::add(const Scan& scan, const Mask& mask, std::string_view confidence) {
+  const auto number = static_cast<std::uint32_t>(scene_.scans.size());
+  scene_.scans.push_back(scan.name);
+  scene_.trajectory.push_back(scene_.T_upright_world * scan.T_world_sensor.translation());
+  scene_.review.scans.push_back(reviewed_scan(scan, mask));
+  if (!confidence.empty()) scene_.confidences.resize(kConfidenceSteps + 1);
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] > 1) continue;
+    const bool removed = mask[i] != 0;
+    const std::uint8_t steps = confidence.empty() ? 0 : static_cast<std::uint8_t>(confidence[i]);
+    if (!confidence.empty()) ++scene_.confidences[steps];
+    ++scene_.points_in_range;
+    ++(removed ? scene_.counts[0].true_positive : scene_.counts[0].kept_static);
+    const std::array<std::uint8_t, 2> verdict = {mask[i], steps};
+    const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
+    const ShownPoint shown{map_steps(scene_.T_upright_world * world), number,
+                           removed ? kRemovedId : kKeptId};
+    const std::uint64_t group = removed ? number + 1 : steps >= kUncertainSteps ? 1 : 0;
+    (removed ? removed_ : kept_).add(shown, group, verdict);
+  }
 }
 
 Scene MapSceneBuilder::finish() {
   kept_.reduce(limit_ - removed_.size());
-  scene_.error_cell = removed_.cell();
-  scene_.other_cell = kept_.cell();
+  // A page's coordinates must tell cells apart.
+  std::vector<ShownPoint> all = removed_.points();
+  all.insert(all.end(), kept_.points().begin(), kept_.points().end());
+  const int unit = 1 << page_frame(all).shift;
+  removed_.align(unit);
+  kept_.align(unit);
+  scene_.review.removed_cell = scene_.error_cell = removed_.cell();
+  scene_.review.kept_cell = scene_.other_cell = kept_.cell();
   gather_points(removed_, kept_, scene_);
   return std::move(scene_);
 }

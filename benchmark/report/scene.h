@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/result/removals/edits.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "core/progress.h"
 #include "core/scan/scan.h"
@@ -16,13 +17,9 @@
 
 namespace raymoval {
 
-/// The number of steps along the edge of a voxel. Positions of shown points are whole numbers of
-/// steps.
-inline constexpr int kStepsPerVoxel = 16;
-
 /// A point that may be shown.
 struct ShownPoint {
-  std::array<std::int32_t, 3> step;  ///< Position in steps, rounded down.
+  MapSteps step;  ///< Position in steps, rounded down.
   std::uint32_t scan = 0;
   std::uint16_t label = 0;  ///< Semantic id.
 };
@@ -41,6 +38,8 @@ class ReportPoints {
   void add(const ShownPoint& point, std::uint64_t group, std::span<const std::uint8_t> verdict);
   /// Thins to `limit` or fewer.
   void reduce(std::size_t limit);
+  /// Makes the edge of the cells a multiple of `steps`.
+  void align(int steps);
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   [[nodiscard]] int cell() const { return cell_; }
@@ -53,6 +52,7 @@ class ReportPoints {
  private:
   [[nodiscard]] std::uint64_t key(const ShownPoint& point, std::uint64_t group) const;
   void grow_cells();
+  void thin();
 
   std::size_t limit_, verdicts_;
   int cell_;
@@ -61,10 +61,6 @@ class ReportPoints {
   std::vector<std::uint8_t> bytes_;
   tsl::robin_set<std::uint64_t, VoxelKeyHash> taken_;
 };
-
-/// The edge of the voxels that a page shows and thins points by, metres. The `erasor` protocol uses
-/// the same.
-inline constexpr double kPageVoxel = 0.2;
 
 /// A cell whose points can be shown.
 struct SceneCell {
@@ -106,7 +102,12 @@ struct Scene {
   std::vector<ShownPoint> points;  ///< In the order of a Morton curve.
   /// For each cell a byte for each point. Bit 0 is set if the point was removed; the bits above it
   /// hold the reason's code plus 1, or 0 if there is no reason.
+  /// Of a cleaned map, the second byte is the confidence in steps (`kConfidenceSteps`).
   std::vector<std::vector<std::uint8_t>> verdicts;
+  Edits
+      review;  ///< Of a cleaned map: the method's answer, which the page exports with corrections.
+  /// Of a cleaned map: the number of points of each confidence; empty without confidence.
+  std::vector<std::uint64_t> confidences;
 };
 
 /// Reads scans, labels and removals, and chooses at most `limit` points. Points that a method
@@ -119,20 +120,21 @@ Scene build_scene(const Sequence& sequence, std::vector<SceneCell> cells, std::s
 
 /// Chooses the points of a cleaned map for a page, scan by scan: kept and removed points, without
 /// labels. At most `limit` points are held. One point is shown in each cell of `kPageVoxel`, or of
-/// larger cells if `limit` requires it. Up to 40 % of the points are removed points, one in each
-/// cell and scan.
+/// larger cells if `limit` requires it; kept points with `kUncertainSteps` or more are thinned
+/// separately. Up to 40 % of the points are removed points, one in each cell and scan.
 class MapSceneBuilder {
  public:
+  static constexpr int kUncertainSteps = 5;
+
   /// @param method the name for removed points in the page
   /// @param T_upright_world the rotation that turns up to z
   MapSceneBuilder(const std::string& sequence, const std::string& method,
                   const Pose& T_upright_world, std::size_t limit);
 
   /// Must be called for each scan, also without points.
-  void add_scan(const std::string& name, const Eigen::Vector3d& sensor);
-  /// Adds a point of the scan that was added last.
-  /// @param world in the frame of the scans, metres
-  void add_point(const Eigen::Vector3d& world, bool removed);
+  /// @param mask 1 = removed, 0 = kept, other values are not shown
+  /// @param confidence of each point in steps (`kConfidenceSteps`); empty if there is none
+  void add(const Scan& scan, const Mask& mask, std::string_view confidence = {});
   Scene finish();
 
  private:
@@ -147,6 +149,13 @@ struct PackedScene {
   std::string head;
   std::vector<std::pair<std::string, std::string>> streams;  ///< Id and base64 of deflated bytes.
 };
+
+/// The origin and the resolution of the points' coordinates in a page.
+struct PageFrame {
+  MapSteps origin{};  ///< Voxels.
+  int shift = 0;      ///< 2^shift steps are one unit of a coordinate.
+};
+PageFrame page_frame(const std::vector<ShownPoint>& points);
 
 /// @param number of the scene in the page, for the ids of its streams
 PackedScene pack_scene(const Scene& scene, std::size_t number);

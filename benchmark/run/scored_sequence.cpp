@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "benchmark/process/method_run.h"
+#include "benchmark/process/split_sensors.h"
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/registration/pose_fit.h"
@@ -60,6 +61,15 @@ ProtocolResult checked(ProtocolResult result, const Protocol& protocol) {
   return result;
 }
 
+/// The spin axis; +z if a scan cannot be read, which is reported when all data is read.
+Eigen::Vector3d axis_of_readable(const Sequence& sequence) {
+  try {
+    return spin_axis_of(sequence);
+  } catch (const DataError&) {
+    return Eigen::Vector3d::UnitZ();
+  }
+}
+
 }  // namespace
 
 std::string pose_fit_line(const std::optional<PoseFitRecord>& fit) {
@@ -79,7 +89,8 @@ ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequ
     throw DataError("sequence '" + opened.name + "' has no scan in the chosen frames (" +
                     opened.frames + "). Choose others with --frames.");
   }
-  scored_scans_ = std::make_unique<LocalFrameSource>(*opened.scans, lattice_frame(*opened.scans));
+  scored_scans_ = std::make_unique<LocalFrameSource>(*opened.scans, lattice_frame(*opened.scans),
+                                                     axis_of_readable(opened));
   for (const ProtocolRequest& request : requests) {
     protocols_.push_back({request.name, make_protocol(request.protocol, request.options), nullptr});
     check_has_what_is_needed(*protocols_.back().protocol, input(), opened.name);

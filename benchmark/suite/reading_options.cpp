@@ -48,7 +48,8 @@ const std::vector<ReadingOption>& reading_options() {
        [](Options& o, Text, Text text) { o.frames = parse_frame_range(text); }},
       {"poses", "FILE",
        "Pose file: a name in the sequence folder, or a path; the word identity for a stationary "
-       "sensor",
+       "sensor, estimate to estimate the poses from the scans, or refine or refine:FILE to improve "
+       "the given ones",
        set_text<&Options::poses>},
       {"pose-format", "NAME",
        "Format of the pose file (see `raymoval list pose-formats`; default: detected from its "
@@ -61,7 +62,8 @@ const std::vector<ReadingOption>& reading_options() {
       {"sensor-origin", "X,Y,Z",
        "Position of the sensor in the frame of the points, in metres, if points are in the frame "
        "of a vehicle. For merged clouds of several sensors: FIELD:NUMBER=X,Y,Z/NUMBER=X,Y,Z; the "
-       "points have a field FIELD with the number of their sensor",
+       "points have a field FIELD with the number of their sensor. For several topics whose points "
+       "are in one frame: topic:0=X,Y,Z/1=X,Y,Z",
        [](Options& o, Text option, Text text) {
          o.sensor_origin = in_option(option, [&] { return parse_sensor_places(text); });
        }},
@@ -79,7 +81,10 @@ const std::vector<ReadingOption>& reading_options() {
        "Unit of the times of points: s, ms, us, ns, or a number of seconds (default: detected from "
        "the times of a scan)",
        set_text<&Options::point_time_unit>},
-      {"topic", "NAME", "Topic of the scans in a recording (default: the only topic with clouds)",
+      {"topic", "NAME",
+       "Topic of the scans in a recording, or NAME,NAME of several sensors of one vehicle "
+       "(default: "
+       "the only topic with clouds)",
        set_text<&Options::topic>},
       {"pose-topic", "NAME", "Topic of the poses in a recording (default: its odometry, else tf)",
        set_text<&Options::pose_topic>},

@@ -35,11 +35,11 @@ std::size_t samples_for(const Directions& scan, double reach, std::size_t scans)
   return std::clamp(static_cast<std::size_t>(most), std::size_t{50}, kMostSamples);
 }
 
-/// Whether a neighbour is beside a direction at `elevation`, like points of one beam; with a margin
-/// for slightly inclined beams.
-bool beside(double azimuth, double rise, double elevation) {
+/// Whether a neighbour is beside a direction, like points of one beam; with a margin for slightly
+/// inclined beams. `cosine` is that of the elevation of the direction.
+bool beside(double azimuth, double rise, double cosine) {
   constexpr double kSlope = 0.25, kNoise = 0.02 * kDegree;
-  return std::abs(rise) <= kSlope * azimuth * std::cos(elevation) + kNoise;
+  return std::abs(rise) <= kSlope * azimuth * cosine + kNoise;
 }
 
 /// Share of directions that have a partner beside them, by distance in azimuth.
@@ -50,11 +50,11 @@ class PartnerShares {
 
   void add(const Directions& scan, std::size_t samples) {
     for (const std::size_t i : scan.sample(samples)) {
-      const double elevation = scan[i].elevation;
+      const double cosine = std::cos(scan[i].elevation);
       std::bitset<kBins> partners;
       double nearest = kReach;
       scan.visit_ahead(i, kReach, [&](double azimuth, double rise) {
-        if (azimuth < kLeastStep || !beside(azimuth, rise, elevation)) return;
+        if (azimuth < kLeastStep || !beside(azimuth, rise, cosine)) return;
         nearest = std::min(nearest, azimuth);
         set_about(azimuth, partners);
       });
@@ -142,8 +142,9 @@ std::pair<double, double> refined(const std::vector<Directions>& scans, double s
   std::vector<double> steps, rises;
   for (const Directions& scan : scans) {
     for (const std::size_t i : scan.sample(samples_for(scan, 2.0 * step, scans.size()))) {
+      const double cosine = std::cos(scan[i].elevation);
       scan.visit_ahead(i, (1.0 + kNear) * step, [&](double azimuth, double rise) {
-        if (azimuth < (1.0 - kNear) * step || !beside(azimuth, rise, scan[i].elevation)) return;
+        if (azimuth < (1.0 - kNear) * step || !beside(azimuth, rise, cosine)) return;
         steps.push_back(azimuth);
         rises.push_back(std::abs(rise));
       });

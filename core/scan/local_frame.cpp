@@ -4,10 +4,40 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/text.h"
+
 namespace raymoval {
 
-Pose LocalFrameSource::in_local_frame(const Pose& T_world_sensor) const {
-  return T_local_world_ * T_world_sensor;
+LocalFrameSource::LocalFrameSource(const ScanSource& source, const Pose& T_local_world,
+                                   const Eigen::Vector3d& spin_axis)
+    : source_(source), T_local_world_(T_local_world), turn_(turn_to_z(spin_axis)) {
+  if (turn_ == Eigen::Matrix3d::Identity()) return;
+  turned_sensor_ = source.sensor();
+  turned_sensor_->spin_axis = Eigen::Vector3d::UnitZ();
+}
+
+Scan LocalFrameSource::load(std::size_t index) const {
+  Scan scan = source_.load(index);
+  if (turned_sensor_) turn_sensor_frame(turn_, scan);
+  scan.T_world_sensor = T_local_world_ * scan.T_world_sensor;
+  return scan;
+}
+
+Pose LocalFrameSource::pose(std::size_t index) const {
+  const Pose T_world_sensor = source_.pose(index);
+  return T_local_world_ *
+         (turned_sensor_ ? T_world_sensor * Pose(turn_.transpose()) : T_world_sensor);
+}
+
+const SensorModel& LocalFrameSource::sensor() const {
+  return turned_sensor_ ? *turned_sensor_ : source_.sensor();
+}
+
+void turn_sensor_frame(const Eigen::Matrix3d& turn, Scan& scan) {
+  for (Eigen::Vector3f& point : scan.points) {
+    point = (turn * point.cast<double>()).cast<float>();
+  }
+  scan.T_world_sensor = scan.T_world_sensor * Pose(turn.transpose());
 }
 
 Eigen::Matrix3d turn_to_z(const Eigen::Vector3d& up) {
@@ -32,6 +62,14 @@ Eigen::Matrix3d turn_to_z(const Eigen::Vector3d& up) {
     if (std::abs(entry - std::round(entry)) < kExact) entry = std::round(entry);
   }
   return turn;
+}
+
+std::string axis_text(const Eigen::Vector3d& axis) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (std::abs(axis[i]) < 1.0 - 1e-12) continue;
+    return std::string(axis[i] < 0.0 ? "-" : "") + static_cast<char>('x' + i);
+  }
+  return fixed_text(axis.x(), 3) + "," + fixed_text(axis.y(), 3) + "," + fixed_text(axis.z(), 3);
 }
 
 Pose method_frame(const ScanSource& scans, const Eigen::Vector3d& up) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "core/scan/scan_source.h"
 
 namespace raymoval {
@@ -13,31 +16,35 @@ class LocalFrameSource : public ScanSource {
  public:
   /// @param source must outlive this object
   /// @param T_local_world rigid motion from the world of `source` to the frame wanted
-  LocalFrameSource(const ScanSource& source, const Pose& T_local_world)
-      : source_(source), T_local_world_(T_local_world) {}
+  /// @param spin_axis unit vector of the sensor frame of `source`. The sensor frame is turned so
+  ///   that this axis becomes z, as methods expect: points and poses change, and no point moves in
+  ///   the world. For z, nothing is turned.
+  LocalFrameSource(const ScanSource& source, const Pose& T_local_world,
+                   const Eigen::Vector3d& spin_axis = Eigen::Vector3d::UnitZ());
 
   [[nodiscard]] std::size_t size() const override { return source_.size(); }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = source_.load(index);
-    scan.T_world_sensor = in_local_frame(scan.T_world_sensor);
-    return scan;
-  }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return in_local_frame(source_.pose(index));
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return source_.sensor(); }
+  [[nodiscard]] Scan load(std::size_t index) const override;
+  [[nodiscard]] Pose pose(std::size_t index) const override;
+  [[nodiscard]] const SensorModel& sensor() const override;
   [[nodiscard]] const Pose& T_local_world() const { return T_local_world_; }
 
  private:
-  [[nodiscard]] Pose in_local_frame(const Pose& T_world_sensor) const;
-
   const ScanSource& source_;
   Pose T_local_world_;
+  Eigen::Matrix3d turn_;
+  std::optional<SensorModel> turned_sensor_;  ///< If the sensor frame is turned.
 };
+
+/// Turns the points of `scan` and its pose; no point moves in the world.
+/// @param turn a rotation of the sensor frame
+void turn_sensor_frame(const Eigen::Matrix3d& turn, Scan& scan);
 
 /// The shortest rotation that maps `up` to +z; multiples of 90 degrees are exact.
 /// @param up unit vector
 Eigen::Matrix3d turn_to_z(const Eigen::Vector3d& up);
+
+/// "-y" for a coordinate axis, else "0.000,0.342,0.940".
+std::string axis_text(const Eigen::Vector3d& axis);
 
 /// The frame that methods run in: its origin is the position of the first scan, exactly, and its z
 /// axis points to `up`. If `up` is the world's +z, there is no rotation.

@@ -9,7 +9,9 @@
 #include "core/error.h"
 #include "core/scan/direction_pattern.h"
 #include "core/scan/directions.h"
+#include "core/scan/local_frame.h"
 #include "core/scan/sensor_model.h"
+#include "core/scan/spin_axis.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -135,14 +137,8 @@ std::string basis_text(const SensorModel& model, const DirectionPattern& pattern
          counted_text(scans, "scan") + " with " + grouped_text(directions) + " directions";
 }
 
-}  // namespace
-
-SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
-  Seen seen(scans);
-  if (seen.azimuths.empty()) {
-    throw DataError("the sensor cannot be estimated: none of " + std::to_string(scans.size()) +
-                    " sampled scans has a point. Name it with \"sensor\" in sequence.json.");
-  }
+/// @param seen reordered
+SensorModel model_about_z(Seen& seen) {
   SensorModel model;
   model.name = "estimated";
   const std::size_t directions = seen.azimuths.size();
@@ -161,7 +157,7 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
   set_azimuths(seen.azimuths, model);
   model.range_min = seen.nearest;
   model.range_max = seen.farthest;
-  model.basis = basis_text(model, pattern, scans.size(), directions);
+  model.basis = basis_text(model, pattern, seen.scans.size(), directions);
   // A data sheet is more exact, and naming the sensor then changes no bin.
   constexpr double kFewNear = 5e-3;  // A beam of 64 has three times as many points.
   if (const auto known = recognised(pattern, quantile_of(seen.elevations, kFewNear),
@@ -173,6 +169,38 @@ SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
     model.basis += "; the data sheet of '" + known->name + "' fits and is used";
   }
   return model;
+}
+
+/// The model about `axis`; nothing if no beams turn about it.
+std::optional<SensorModel> model_about(const Eigen::Vector3d& axis, std::vector<Scan> scans) {
+  for (Scan& scan : scans) turn_sensor_frame(turn_to_z(axis), scan);
+  Seen seen(scans);
+  SensorModel model = model_about_z(seen);
+  if (!model.has_beams()) return std::nullopt;
+  model.spin_axis = axis;
+  model.basis += "; spin axis: " + axis_text(axis);
+  return model;
+}
+
+}  // namespace
+
+SensorModel estimate_sensor_model(const std::vector<Scan>& scans) {
+  Seen seen(scans);
+  if (seen.azimuths.empty()) {
+    throw DataError("the sensor cannot be estimated: none of " + std::to_string(scans.size()) +
+                    " sampled scans has a point. Name it with \"sensor\" in sequence.json.");
+  }
+  const Eigen::Vector3d axis = find_spin_axis(seen.scans);
+  if (axis != Eigen::Vector3d::UnitZ()) {
+    if (auto model = model_about(axis, scans)) return *std::move(model);
+  }
+  return model_about_z(seen);
+}
+
+Eigen::Vector3d estimate_spin_axis(const std::vector<Scan>& scans) {
+  const Eigen::Vector3d axis = find_spin_axis({scans.begin(), scans.end()});
+  const bool is_z = axis == Eigen::Vector3d::UnitZ();
+  return is_z || model_about(axis, scans) ? axis : Eigen::Vector3d::UnitZ();
 }
 
 }  // namespace raymoval

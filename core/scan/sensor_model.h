@@ -9,9 +9,14 @@
 namespace raymoval {
 
 /// The properties of the sensor. Angles in radians in the sensor frame (azimuth counter-clockwise
-/// from +x about +z, elevation up from the x-y plane), ranges in metres.
+/// from +x about +z, elevation up from the x-y plane), ranges in metres. If the sensor spins about
+/// another axis, angles are those of the frame that `turn_to_z(spin_axis)` turns; methods get their
+/// scans in that frame.
 struct SensorModel {
   std::string name = "unknown";
+  /// Unit vector of the frame of the points. +z for a sensor that does not spin. Known sensors have
+  /// +z, since their data sheets do not tell how the points are stored.
+  Eigen::Vector3d spin_axis = Eigen::Vector3d::UnitZ();
   double azimuth_min = -3.14159265358979323846;
   /// Above pi if the view includes the back of the sensor frame; never more than one turn
   /// above `azimuth_min`.
@@ -50,8 +55,12 @@ SensorModel sensor_model_named(const std::string& name);
 /// points. The field of view lies between the outermost directions on both sides, without 0.01 % of
 /// the points on either side. It may include +-pi. `find_direction_pattern` finds the steps; they
 /// stay 0 (unknown) if there are too few directions. Steps and elevations that are nearly those of
-/// a known sensor are replaced by its values, so that naming that sensor changes nothing.
+/// a known sensor are replaced by its values, so that naming that sensor changes nothing. The axis
+/// about which it spins is found by `find_spin_axis`; it is +z if no beams turn about that axis.
 /// @throws DataError if there is no point.
 SensorModel estimate_sensor_model(const std::vector<Scan>& scans);
+
+/// Only the spin axis of `estimate_sensor_model`; +z if there is no point.
+Eigen::Vector3d estimate_spin_axis(const std::vector<Scan>& scans);
 
 }  // namespace raymoval

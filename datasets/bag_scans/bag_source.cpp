@@ -9,18 +9,16 @@
 #include "datasets/clouds/returns.h"
 
 namespace raymoval {
-std::string scan_name(std::size_t message) {
+std::string scan_name(std::size_t number) {
   constexpr std::size_t kDigits = 6;
-  std::string name = std::to_string(message);
+  std::string name = std::to_string(number);
   if (name.size() < kDigits) name.insert(0, kDigits - name.size(), '0');
   return name;
 }
 
-BagScanSource::BagScanSource(std::shared_ptr<const Bag> bag, std::size_t topic,
-                             std::vector<BagScan> scans, PointFrame point_frame,
-                             const std::optional<std::string>& sensor)
+BagScanSource::BagScanSource(std::shared_ptr<const Bag> bag, std::vector<BagScan> scans,
+                             PointFrame point_frame, const std::optional<std::string>& sensor)
     : bag_(std::move(bag)),
-      topic_(topic),
       scans_(std::move(scans)),
       point_frame_(point_frame),
       sensor_(sensor),
@@ -33,12 +31,13 @@ const BagScan& BagScanSource::scan(std::size_t index) const {
 }
 
 std::string BagScanSource::place(std::size_t index) const {
-  return message_place(*bag_, topic_, scan(index).message);
+  return message_place(*bag_, scan(index).topic, scan(index).message);
 }
 
 PointRecords BagScanSource::records(std::size_t index) const {
-  const BagTopic& topic = bag_->topics()[topic_];
-  return read_points(bag_->message(topic_, scan(index).message), topic.type, topic.encoding,
+  const BagScan& from = scan(index);
+  const BagTopic& topic = bag_->topics()[from.topic];
+  return read_points(bag_->message(from.topic, from.message), topic.type, topic.encoding,
                      place(index));
 }
 
@@ -46,15 +45,15 @@ Scan BagScanSource::load(std::size_t index) const {
   const BagScan& from = scan(index);
   Scan loaded;
   loaded.index = index;
-  loaded.name = scan_name(from.message);
+  loaded.name = scan_name(from.number);
   loaded.time_s = from.time_s;
   loaded.T_world_sensor = from.T_world_sensor;
   const std::string where = place(index);
   const ReturnCounts counts =
       read_returns(loaded, point_frame_, where, [&](const Eigen::Vector3d& origin) {
-        const BagTopic& topic = bag_->topics()[topic_];
-        return read_point_positions(bag_->message(topic_, from.message), topic.type, topic.encoding,
-                                    origin, where);
+        const BagTopic& topic = bag_->topics()[from.topic];
+        return read_point_positions(bag_->message(from.topic, from.message), topic.type,
+                                    topic.encoding, origin, where);
       });
   tally_.set(index, counts.stored, counts.no_returns);
   return loaded;

@@ -16,8 +16,11 @@ namespace raymoval {
 
 /// A message with a scan, without its points.
 struct BagScan {
+  std::size_t topic = 0;    ///< Number of its topic in the bag.
   std::size_t message = 0;  ///< Its number in the topic.
-  double time_s = 0.0;      ///< Since the topic's first message.
+  std::size_t number = 0;   ///< In its name: `message`, or its position in time of several topics.
+  std::size_t sensor = 0;   ///< Position of its topic among the topics that are read.
+  double time_s = 0.0;      ///< Since the first message of the topics.
   Pose T_world_sensor = Pose::Identity();
   std::shared_ptr<const RecordLayout> layout = nullptr;  ///< Of its points, shared by scans.
 };
@@ -26,8 +29,8 @@ struct BagScan {
 /// (see `read_returns`). A scan is read when it is requested.
 class BagScanSource : public ScanSource, public RecordSource, public TalliedSource {
  public:
-  BagScanSource(std::shared_ptr<const Bag> bag, std::size_t topic, std::vector<BagScan> scans,
-                PointFrame point_frame, const std::optional<std::string>& sensor);
+  BagScanSource(std::shared_ptr<const Bag> bag, std::vector<BagScan> scans, PointFrame point_frame,
+                const std::optional<std::string>& sensor);
 
   [[nodiscard]] std::size_t size() const override { return scans_.size(); }
   [[nodiscard]] Scan load(std::size_t index) const override;
@@ -46,7 +49,6 @@ class BagScanSource : public ScanSource, public RecordSource, public TalliedSour
   [[nodiscard]] const BagScan& scan(std::size_t index) const;
 
   std::shared_ptr<const Bag> bag_;
-  std::size_t topic_;
   std::vector<BagScan> scans_;
   PointFrame point_frame_;
   SensorChoice sensor_;
@@ -54,6 +56,6 @@ class BagScanSource : public ScanSource, public RecordSource, public TalliedSour
 };
 
 /// "000012".
-std::string scan_name(std::size_t message);
+std::string scan_name(std::size_t number);
 
 }  // namespace raymoval

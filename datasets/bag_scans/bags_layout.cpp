@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/layout.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,6 +44,7 @@ void take(std::vector<Value>& all, std::vector<Value> more) {
 
 /// The headers of the messages of a topic with scans.
 struct ScanHeads {
+  std::size_t topic = 0;
   std::vector<std::size_t> messages;  ///< Numbers of the usable messages, in order.
   std::vector<Nanoseconds> stamps;    ///< Of each usable message.
   /// The layout of the points of each usable message; equal layouts are shared.
@@ -121,6 +125,7 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
   const HeadReader reader(bag, topic);
   const ChosenFrames chosen = choose_messages(bag, topic, range);
   ScanHeads heads;
+  heads.topic = topic;
   heads.range = chosen.range;
   LeftOut left_out;
   for (const NumberedFile& file : chosen.files) {
@@ -165,13 +170,42 @@ SequenceSettings settings_of(const fs::path& path, const SequenceOptions& option
 
 std::size_t scan_topic(const Bag& bag, const std::optional<std::string>& named) {
   const TopicRequest wish{"--topic", "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)",
-                          [](const BagTopic& topic) { return has_points(topic.type); }};
+                          [](const BagTopic& topic) { return has_points(topic.type); }, true};
   if (const auto topic = choose_topic(bag, named, wish)) return *topic;
   throw UsageError(bag.path().string() +
                    ": no topic has scans, which are of type "
                    "sensor_msgs/PointCloud2 or livox_ros_driver/CustomMsg. " +
                    topics_sentence(bag) +
                    " To convert packets of a driver into clouds, replay the bag with the driver.");
+}
+
+/// The topics of `named`, between commas, or the only one.
+std::vector<std::size_t> scan_topics(const Bag& bag, const std::optional<std::string>& named) {
+  if (!named) return {scan_topic(bag, named)};
+  std::vector<std::size_t> topics;
+  for (const std::string_view name : split(*named, ',')) {
+    const std::size_t topic = scan_topic(bag, std::string(name));
+    if (std::find(topics.begin(), topics.end(), topic) != topics.end()) {
+      throw UsageError(bag_name(bag) + ": --topic " + *named + ": names " +
+                       bag.topics()[topic].name + " twice. Leave one of them out.");
+    }
+    topics.push_back(topic);
+  }
+  return topics;
+}
+
+/// Refuses topics whose points have one frame, because two sensors have not the same origin.
+void check_frames(const Bag& bag, const std::vector<ScanHeads>& heads) {
+  std::map<std::string, std::string> topics;
+  for (const ScanHeads& of : heads) {
+    const std::string& topic = bag.topics()[of.topic].name;
+    const auto [other, is_new] = topics.emplace(frame_name(of.frame), topic);
+    if (is_new) continue;
+    throw UsageError(bag_name(bag) + ": the points of " + other->second + " and " + topic +
+                     " are in one frame, '" + of.frame +
+                     "', which cannot be the place of both sensors. Give each place in it: "
+                     "--sensor-origin topic:0=X,Y,Z/1=X,Y,Z, in the order of --topic.");
+  }
 }
 
 /// Takes the labels of the file beside the recording, if it is there.
@@ -244,16 +278,86 @@ FoundScanPoses poses_of_bag(const Bag& bag, const ScanHeads& heads, std::uint64_
   return found;
 }
 
+/// Adds the poses of the scans of another topic to those of the first one. tf has the place of one
+/// sensor beside the other.
+void add_poses_beside(const Bag& bag, const ScanHeads& first, const ScanHeads& other,
+                      ScanPoses& poses) {
+  SensorMotion motion = *poses.motion;
+  const std::string from = frame_name(first.frame), to = frame_name(other.frame);
+  if (from != to) {
+    const auto links = FrameTree(bag).links(from, to);
+    if (!links) {
+      throw UsageError(bag_name(bag) + ": tf has no transform between '" + from + "' and '" + to +
+                       "', the frames of " + bag.topics()[first.topic].name + " and " +
+                       bag.topics()[other.topic].name +
+                       ", so the place of one sensor beside the other is unknown. Read the topics "
+                       "one by one, each with the poses of its sensor (--poses, --T-sensor).");
+    }
+    motion = motion.followed_by(*links);
+  }
+  FoundPoses found =
+      look_up_poses(other.stamps, motion, bag_name(bag) + ": " + bag.topics()[other.topic].name);
+  take(poses.poses, std::move(found.poses));
+  take(poses.stamps, other.stamps);
+  take(poses.losses, std::move(found.losses));
+  if (!poses.gap) poses.gap = std::move(found.gap);
+}
+
+/// The scans of all topics; several topics are sorted by time, and so are `poses`.
+std::vector<BagScan> scans_of(const std::vector<ScanHeads>& heads, ScanPoses& poses) {
+  std::vector<BagScan> scans;
+  Nanoseconds begin = heads.front().first_stamp;
+  for (const ScanHeads& of : heads) begin = std::min(begin, of.first_stamp);
+  for (std::size_t k = 0; k < heads.size(); ++k) {
+    const ScanHeads& of = heads[k];
+    for (std::size_t i = 0; i < of.messages.size(); ++i) {
+      scans.push_back({of.topic, of.messages[i], of.messages[i], k,
+                       to_seconds(of.stamps[i] - begin), Pose::Identity(), of.layouts[i]});
+    }
+  }
+  if (heads.size() == 1) return scans;
+  std::vector<std::size_t> order(scans.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return poses.stamps[a] < poses.stamps[b]; });
+  std::vector<BagScan> sorted;
+  ScanPoses unsorted = poses;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.push_back(scans[order[i]]);
+    sorted.back().number = i;
+    poses.poses[i] = unsorted.poses[order[i]];
+    poses.stamps[i] = unsorted.stamps[order[i]];
+  }
+  return sorted;
+}
+
 /// Removes the poses of messages whose points cannot be read.
-void drop_bad_messages(const Bag& bag, std::size_t topic, const ScanHeads& heads,
+void drop_bad_messages(const Bag& bag, const std::vector<BagScan>& scans,
                        const std::atomic<bool>* cancel, ScanPoses& poses) {
-  const auto name = [&](std::size_t i) { return "message " + std::to_string(heads.messages[i]); };
+  const auto name = [&](std::size_t i) { return "message " + std::to_string(scans[i].message); };
   const auto read = [&](std::size_t i) {
-    const BagTopic& of = bag.topics()[topic];
-    (void)read_points(bag.message(topic, heads.messages[i]), of.type, of.encoding,
-                      message_place(bag, topic, heads.messages[i]));
+    const BagTopic& of = bag.topics()[scans[i].topic];
+    (void)read_points(bag.message(scans[i].topic, scans[i].message), of.type, of.encoding,
+                      message_place(bag, scans[i].topic, scans[i].message));
   };
   drop_bad_scans(poses.poses, name, read, cancel, poses.losses);
+}
+
+/// Gives `sequence` the scans that have a pose.
+void add_scans(const std::shared_ptr<const Bag>& bag, std::vector<BagScan> scans,
+               const FoundScanPoses& found, const SequenceSettings& settings, std::size_t topics,
+               Sequence& sequence) {
+  std::vector<BagScan> placed;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!found.poses.poses[i]) continue;
+    placed.push_back(std::move(scans[i]));
+    placed.back().T_world_sensor = *found.poses.poses[i];
+    if (topics > 1) sequence.topics.push_back(placed.back().sensor);
+  }
+  const auto source =
+      std::make_shared<BagScanSource>(bag, std::move(placed), found.point_frame, settings.sensor);
+  sequence.scans = source;
+  sequence.records = source;
 }
 
 Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
@@ -267,29 +371,35 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
                      " (--pose-topic). Leave one of them out.");
   }
   const std::shared_ptr<const Bag> bag = open_bag(path);
-  const std::size_t topic = scan_topic(*bag, options.topic);
-  const std::uint64_t messages = bag->topics()[topic].messages;
-  const ScanHeads heads = read_scan_heads(*bag, topic, settings.frames, context.cancel);
+  std::vector<ScanHeads> heads;
+  std::vector<std::string> topics;
+  FrameRange range;
+  for (const std::size_t topic : scan_topics(*bag, options.topic)) {
+    heads.push_back(read_scan_heads(*bag, topic, settings.frames, context.cancel));
+    topics.push_back(topic_text(bag->topics()[topic]));
+    if (range.last.value_or(-1) < heads.back().range.last) range = heads.back().range;
+  }
+  const ScanHeads& first = heads.front();
+  if (!settings.sensor_origin) check_frames(*bag, heads);
 
-  Sequence sequence = make_sequence(settings, bags_layout(), heads.range);
+  Sequence sequence = make_sequence(settings, bags_layout(), range);
   // No output file may overwrite the recording or a file of it.
   sequence.input_files.push_back(path);
   if (is_folder(path)) take(sequence.input_files, entries_of(path));
   const PoseSettings pose_settings =
       raymoval::pose_settings(settings, folder, sequence.input_files);
   sequence.T_body_sensor = pose_settings.T_body_sensor;
+  const BagTopic& topic = bag->topics()[first.topic];
   FoundScanPoses found =
       settings.poses
-          ? poses_of_file(heads, bag->topics()[topic], settings, folder, pose_settings, sequence)
-          : poses_of_bag(*bag, heads, messages, settings, options.pose_topic, pose_settings);
-  if (settings.skip_bad_scans) drop_bad_messages(*bag, topic, heads, context.cancel, found.poses);
-  std::vector<BagScan> scans;
-  for (std::size_t i = 0; i < heads.messages.size(); ++i) {
-    if (!found.poses.poses[i]) continue;
-    scans.push_back({heads.messages[i], to_seconds(heads.stamps[i] - heads.first_stamp),
-                     *found.poses.poses[i], heads.layouts[i]});
+          ? poses_of_file(first, topic, settings, folder, pose_settings, sequence)
+          : poses_of_bag(*bag, first, topic.messages, settings, options.pose_topic, pose_settings);
+  for (std::size_t k = 1; k < heads.size(); ++k) {
+    add_poses_beside(*bag, first, heads[k], found.poses);
   }
-  sequence.fixed_frames = [bag, frame = frame_name(heads.frame)] {
+  std::vector<BagScan> scans = scans_of(heads, found.poses);
+  if (settings.skip_bad_scans) drop_bad_messages(*bag, scans, context.cancel, found.poses);
+  sequence.fixed_frames = [bag, frame = frame_name(first.frame)] {
     std::map<std::string, Eigen::Vector3d> places;
     for (const auto& [name, pose] : FrameTree(*bag).fixed_frames(frame)) {
       places[name] = pose.translation();
@@ -298,16 +408,12 @@ Sequence open_bag_sequence(Layout::Path text, const SequenceOptions& options,
   };
   sequence.poses_file = found.name;
   sequence.damage = bag->damage();
-  sequence.notes.push_back(path.filename().string() + ": the scans are those of " +
-                           topic_text(bag->topics()[topic]) + ", the poses those of " + found.name +
-                           ".");
-  sequence.losses = heads.losses;
+  sequence.notes.push_back(path.filename().string() + ": the scans are those of " + join(topics) +
+                           ", the poses those of " + found.name + ".");
+  for (ScanHeads& of : heads) take(sequence.losses, std::move(of.losses));
   add_poses(found.poses, sequence);
   find_labels(folder, settings, sequence);
-  const auto source = std::make_shared<BagScanSource>(bag, topic, std::move(scans),
-                                                      found.point_frame, settings.sensor);
-  sequence.scans = source;
-  sequence.records = source;
+  add_scans(bag, std::move(scans), found, settings, heads.size(), sequence);
   return sequence;
 }
 

@@ -77,8 +77,13 @@ std::optional<std::size_t> choose_topic(const Bag& bag, const std::optional<std:
   }
   if (fitting.empty()) return std::nullopt;
   if (fitting.size() == 1) return fitting[0];
+  std::vector<std::string> names;
+  for (const std::size_t topic : fitting) names.push_back(bag.topics()[topic].name);
   throw UsageError(bag_name(bag) + ": has several topics " + wish.kind + ": " +
-                   join(texts_of(bag, fitting)) + ". Name one with " + wish.option + ".");
+                   join(texts_of(bag, fitting)) + ". Name one with " + wish.option +
+                   (wish.several ? ", or those of several sensors of one vehicle: " + wish.option +
+                                       " " + join(names, ",") + "."
+                                 : "."));
 }
 
 }  // namespace raymoval

@@ -24,6 +24,7 @@ struct TopicRequest {
   std::string option;  ///< The flag that names a topic: "--topic".
   std::string kind;    ///< "with scans (sensor_msgs/PointCloud2 or a Livox CustomMsg)".
   std::function<bool(const BagTopic&)> fits;
+  bool several = false;  ///< Whether the flag takes several topics.
 };
 
 /// The topic that the user named, or the only topic that fits and has messages. Empty if no topic

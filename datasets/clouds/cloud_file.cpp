@@ -61,6 +61,10 @@ std::string conversion_text(const std::filesystem::path& path) {
            "PLY -O in." +
            ending + " -SAVE_CLOUDS.";
   };
+  static const std::string kTable =
+      "clouds as text are not read or written. NumPy converts them: numpy.save(\"out.npy\", "
+      "numpy.loadtxt(\"in.txt\", \"f4\")), with delimiter=\",\" for commas and skiprows=1 for a "
+      "line of names.";
   static const std::map<std::string, std::string> texts = {
       {".laz",
        "LAZ, compressed LAS, is not read or written. Decompress it first: laszip -i in.laz -o "
@@ -76,8 +80,16 @@ std::string conversion_text(const std::filesystem::path& path) {
        "out.bag."},
       {".feather",
        "feather (Argoverse 2) is not read. pandas converts it: pandas.read_feather(\"in.feather\")"
-       "[[\"x\", \"y\", \"z\", \"intensity\"]].to_numpy(\"f4\").tofile(\"out.bin\")."}};
-  const auto found = texts.find(path.extension().string());
+       "[[\"x\", \"y\", \"z\", \"intensity\"]].to_numpy(\"f4\").tofile(\"out.bin\")."},
+      {".xyz", kTable},
+      {".asc", kTable},
+      {".txt", kTable},
+      {".csv", kTable}};
+  const std::string extension = in_lower_case(path.extension().string());
+  // Other tables have names, such as poses.txt.
+  const bool is_table = extension == ".txt" || extension == ".csv";
+  if (is_table && !all_digits(path.stem().string())) return "";
+  const auto found = texts.find(extension);
   return found == texts.end() ? "" : found->second;
 }
 
@@ -103,7 +115,7 @@ const std::vector<std::string>& written_extensions() {
 }
 
 std::string cloud_extension(const std::filesystem::path& path) {
-  const std::string name = path.filename().string();
+  const std::string name = in_lower_case(path.filename().string());
   for (const std::string& extension : cloud_extensions()) {
     if (name.size() > extension.size() && name.ends_with(extension)) return extension;
   }

@@ -88,7 +88,7 @@ std::vector<std::filesystem::path> list_files(const std::filesystem::path& folde
                                               const std::vector<std::string>& extensions) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& path : entries_of(folder)) {
-    const std::string name = path.filename().string();
+    const std::string name = in_lower_case(path.filename().string());
     if (name.starts_with(".")) continue;
     const bool wanted =
         std::any_of(extensions.begin(), extensions.end(), [&](const std::string& extension) {

@@ -279,9 +279,15 @@ Scan DeskewedSource::load(std::size_t index) const {
                   input_.records->place(index)};
   const std::vector<double> times = point_times(timed, clock_);
   MotionAround motion(*input_.motion, timed.stamp, clock_.longest_s, timed.place);
+  Pose T_moving_sensor = Pose::Identity();
+  if (input_.several_sensors) {
+    T_moving_sensor = input_.motion->at(timed.stamp)->inverse() * timed.scan.T_world_sensor;
+  }
+  const Pose T_sensor_moving = T_moving_sensor.inverse();
   for (std::size_t i = 0; i < times.size(); ++i) {
     Eigen::Vector3f& point = timed.scan.points[i];
-    point = (motion.since(times[i]) * point.cast<double>()).cast<float>();
+    const Eigen::Vector3d in_moving = T_moving_sensor * point.cast<double>();
+    point = (T_sensor_moving * (motion.since(times[i]) * in_moving)).cast<float>();
   }
   return std::move(timed.scan);
 }

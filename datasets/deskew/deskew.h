@@ -60,6 +60,7 @@ struct DeskewInput {
   std::shared_ptr<const RecordSource> records;
   std::shared_ptr<const SensorMotion> motion;
   std::vector<Nanoseconds> stamps;  ///< Of each scan, on the clock of `motion`.
+  bool several_sensors = false;     ///< Whether `motion` is that of one sensor of several.
 };
 
 /// Determines the clock of the points from the first, middle and last scan of a sequence.

@@ -24,17 +24,22 @@ struct GroundPlane {
   [[nodiscard]] double height(const Vector3d& point) const { return normal.dot(point) - offset; }
 };
 
+using SurfelsOf = std::function<const std::vector<Surfel>&(std::size_t)>;
+
+constexpr double kTilted = 0.5;   // Cosine of the largest tilt of a hand-held sensor.
+constexpr double kUpright = 0.9;  // Cosine of the largest tilt of a sensor that counts as upright.
+
 /// Candidates for the ground among the surfels of all scans, with axes up: not above the sensor (an
-/// origin of the points may lie on the ground), and tilted by less than 60 degrees, the largest
-/// tilt of a hand-held sensor.
-std::vector<Surfel> ground_candidates(
-    std::size_t scans, const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
-  constexpr double kFarthest = 15.0, kHighest = 0.3, kTilted = 0.5;
+/// origin of the points may lie on the ground), and tilted by less than 60 degrees.
+/// @param up in the frame of each scan
+std::vector<Surfel> ground_candidates(const std::vector<Vector3d>& up, const SurfelsOf& surfels) {
+  constexpr double kFarthest = 15.0, kHighest = 0.3;
   std::vector<Surfel> candidates;
-  for (std::size_t k = 0; k < scans; ++k) {
+  for (std::size_t k = 0; k < up.size(); ++k) {
     for (Surfel surfel : surfels(k)) {
-      if (surfel.is_line() || std::abs(surfel.axis.z()) < kTilted) continue;
-      if (surfel.axis.z() < 0.0) surfel.axis = -surfel.axis;
+      const double rise = surfel.axis.dot(up[k]);
+      if (surfel.is_line() || std::abs(rise) < kTilted) continue;
+      if (rise < 0.0) surfel.axis = -surfel.axis;
       if (surfel.mean.norm() > kFarthest || surfel.axis.dot(surfel.mean) > kHighest) continue;
       candidates.push_back(surfel);
     }
@@ -45,7 +50,7 @@ std::vector<Surfel> ground_candidates(
 /// Height of the ceiling above `ground`, which is fixed in the sensor frame as well; infinite if
 /// there is none.
 double ceiling_above(const GroundPlane& ground, std::size_t least, std::size_t scans,
-                     const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+                     const SurfelsOf& surfels) {
   constexpr double kLevel = 0.98, kAboveSensor = 0.3;  // cosine of 11 degrees; metres
   std::vector<double> heights;
   for (std::size_t k = 0; k < scans; ++k) {
@@ -62,33 +67,51 @@ double ceiling_above(const GroundPlane& ground, std::size_t least, std::size_t s
   return *low;
 }
 
-/// The plane of most surfels of all scans. A wall ahead of a tilted sensor may have as many in one
-/// scan, but its distance changes.
-GroundPlane ground_of(std::size_t scans,
-                      const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+/// The most candidates that lie on one plane. A wall ahead of a tilted sensor may have as many in
+/// one scan, but its distance changes.
+std::vector<Surfel> largest_plane(const std::vector<Surfel>& candidates) {
   constexpr std::size_t kTrials = 100;
   constexpr double kSameTurn = 0.98, kSameHeight = 0.3;  // cosine of 11 degrees; metres
-  const std::vector<Surfel> candidates = ground_candidates(scans, surfels);
-  std::vector<const Surfel*> best;
+  std::vector<Surfel> best;
   for (const std::size_t trial : evenly_spread(candidates.size(), kTrials)) {
     const Surfel& one = candidates[trial];
-    std::vector<const Surfel*> alike;
+    std::vector<Surfel> alike;
     for (const Surfel& other : candidates) {
       if (other.axis.dot(one.axis) < kSameTurn) continue;
       if (std::abs(one.axis.dot(other.mean - one.mean)) > kSameHeight) continue;
-      alike.push_back(&other);
+      alike.push_back(other);
     }
     if (alike.size() > best.size()) best = std::move(alike);
+  }
+  return best;
+}
+
+/// The plane of most surfels of all scans, below the sensor along its z axis; or along `world_up`
+/// for a sensor that is tilted far, such as on its side: there a wall beside the path may have more
+/// surfels.
+GroundPlane ground_of(const std::vector<const Scan*>& scans, const SurfelsOf& surfels,
+                      const Vector3d& world_up) {
+  std::vector<Vector3d> up;  // In the frame of each scan.
+  Vector3d mean = Vector3d::Zero();
+  for (const Scan* scan : scans) {
+    up.emplace_back(scan->T_world_sensor.linear().transpose() * world_up);
+    mean += up.back() / static_cast<double>(scans.size());
+  }
+  std::vector<Surfel> best = largest_plane(
+      ground_candidates(std::vector<Vector3d>(scans.size(), Vector3d::UnitZ()), surfels));
+  if (mean.z() < kUpright) {
+    std::vector<Surfel> other = largest_plane(ground_candidates(up, surfels));
+    if (!other.empty()) best = std::move(other);
   }
   GroundPlane plane;
   if (best.empty()) return plane;
   Vector3d normal = Vector3d::Zero();
-  for (const Surfel* surfel : best) normal += surfel->axis;
+  for (const Surfel& surfel : best) normal += surfel.axis;
   plane.normal = normal.normalized();
   std::vector<double> offsets;
-  for (const Surfel* surfel : best) offsets.push_back(plane.normal.dot(surfel->mean));
+  for (const Surfel& surfel : best) offsets.push_back(plane.normal.dot(surfel.mean));
   plane.offset = median(std::move(offsets));
-  plane.ceiling = ceiling_above(plane, best.size() / 10 + 1, scans, surfels);
+  plane.ceiling = ceiling_above(plane, best.size() / 10 + 1, scans.size(), surfels);
   return plane;
 }
 
@@ -210,12 +233,12 @@ std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
   return chosen;
 }
 
-EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
-                         const std::function<const std::vector<Surfel>&(std::size_t)>& surfels) {
+EgoEstimate estimate_ego(const std::vector<const Scan*>& scans, const SurfelsOf& surfels,
+                         const Vector3d& world_up) {
   EgoEstimate estimate;
   estimate.scans = scans.size();
   if (!estimate.has_enough_motion()) return estimate;
-  VoxelSet steady = steady_cells(scans, ground_of(scans.size(), surfels));
+  VoxelSet steady = steady_cells(scans, ground_of(scans, surfels, world_up));
   erase_filled(scans, steady);
   estimate.steady = steady.size();
   estimate.own = grown_from_sensor(steady);

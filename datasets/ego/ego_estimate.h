@@ -44,7 +44,9 @@ std::vector<std::size_t> poses_apart(const std::vector<Pose>& poses,
 /// fixed as well.
 /// @param scans scans apart, see `poses_apart`
 /// @param surfels of each of `scans`, see `find_surfels`, without surfels of the machine
+/// @param world_up up in the world frame, a unit vector
 EgoEstimate estimate_ego(const std::vector<const Scan*>& scans,
-                         const std::function<const std::vector<Surfel>&(std::size_t)>& surfels);
+                         const std::function<const std::vector<Surfel>&(std::size_t)>& surfels,
+                         const Eigen::Vector3d& world_up);
 
 }  // namespace raymoval

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "datasets/clouds/returns.h"
 #include "datasets/ego/ego_estimate.h"
+#include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
 namespace {
@@ -84,7 +85,7 @@ std::string ego_region_text(const EgoRegion& region) {
 
 namespace {
 
-EgoRegion estimated_region(const ScanSource& source) {
+EgoRegion estimated_region(const ScanSource& source, const std::optional<Eigen::Vector3d>& up) {
   constexpr std::size_t kCandidates = 400, kMostScans = 20;
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < source.size(); ++i) poses.push_back(source.pose(i));
@@ -99,8 +100,9 @@ EgoRegion estimated_region(const ScanSource& source) {
     chosen.push_back(&scan);
     surfels.push_back(find_surfels(without_near(scan.points)));
   }
-  const EgoEstimate estimate =
-      estimate_ego(chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; });
+  const EgoEstimate estimate = estimate_ego(
+      chosen, [&](std::size_t k) -> const std::vector<Surfel>& { return surfels[k]; },
+      UpChoice(up).get(source).direction);
   if (!estimate.has_enough_motion()) {
     throw DataError(
         "--drop-ego auto: only " + counted_text(estimate.scans, "scan") +
@@ -112,12 +114,17 @@ EgoRegion estimated_region(const ScanSource& source) {
 
 }  // namespace
 
-EgoFreeSource::EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked)
-    : whole_(std::move(whole)), asked_(asked), sensor_(std::nullopt), tally_(whole_->size()) {}
+EgoFreeSource::EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked,
+                             std::optional<Eigen::Vector3d> up)
+    : whole_(std::move(whole)),
+      asked_(asked),
+      up_(std::move(up)),
+      sensor_(std::nullopt),
+      tally_(whole_->size()) {}
 
 const EgoRegion& EgoFreeSource::region() const {
   if (asked_.kind != EgoRegion::Kind::kEstimated) return asked_;
-  std::call_once(once_, [&] { region_ = estimated_region(*whole_); });
+  std::call_once(once_, [&] { region_ = estimated_region(*whole_, up_); });
   return region_;
 }
 

@@ -45,7 +45,9 @@ class EgoFreeSource : public ScanSource {
  public:
   /// @param asked the region; kind kEstimated is estimated at first use from up to twenty scans of
   ///   `whole`
-  EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked);
+  /// @param up in the world; if it is not given, it is estimated with the region
+  EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked,
+                std::optional<Eigen::Vector3d> up = std::nullopt);
 
   [[nodiscard]] std::size_t size() const override { return whole_->size(); }
   /// @throws DataError also if no point is left, or the region cannot be estimated
@@ -63,6 +65,7 @@ class EgoFreeSource : public ScanSource {
  private:
   std::shared_ptr<const ScanSource> whole_;
   EgoRegion asked_;
+  std::optional<Eigen::Vector3d> up_;
   SensorChoice sensor_;
   LeftOutTally tally_;
   mutable std::once_flag once_;

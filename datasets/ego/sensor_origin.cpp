@@ -12,11 +12,11 @@
 namespace raymoval {
 
 SensorOriginSource::SensorOriginSource(std::shared_ptr<const ScanSource> whole,
-                                       const Eigen::Vector3d& origin)
-    : whole_(std::move(whole)), origin_(origin), sensor_(std::nullopt) {}
+                                       std::vector<Eigen::Vector3d> origins)
+    : whole_(std::move(whole)), origins_(std::move(origins)), sensor_(std::nullopt) {}
 
 Pose SensorOriginSource::pose(std::size_t index) const {
-  return whole_->pose(index) * Eigen::Translation3d(origin_);
+  return whole_->pose(index) * Eigen::Translation3d(origins_.at(index));
 }
 
 const SensorModel& SensorOriginSource::sensor() const {
@@ -30,7 +30,7 @@ Scan SensorOriginSource::load(std::size_t index) const {
   std::vector<std::uint32_t> kept;
   kept.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3d moved = scan.points[i].cast<double>() - origin_;
+    const Eigen::Vector3d moved = scan.points[i].cast<double>() - origins_.at(index);
     scan.points[i] = moved.cast<float>();
     if (scan.points[i].squaredNorm() >= kAtSensor * kAtSensor) {
       kept.push_back(static_cast<std::uint32_t>(i));

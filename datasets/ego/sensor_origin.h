@@ -3,18 +3,20 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "core/scan/scan_source.h"
 #include "datasets/clouds/file_source.h"
 
 namespace raymoval {
 
-/// Shifts scans of another source from the frame of a vehicle to the sensor: `origin` is subtracted
-/// from the points, and T_world_sensor is moved by it. The axes are unchanged. Points within 5 cm
-/// of the sensor are missing returns and left out.
+/// Shifts scans of another source from the frame of a vehicle to the sensor: the origin of a scan
+/// is subtracted from its points, and T_world_sensor is moved by it. The axes are unchanged. Points
+/// within 5 cm of the sensor are missing returns and left out.
 class SensorOriginSource : public ScanSource {
  public:
-  SensorOriginSource(std::shared_ptr<const ScanSource> whole, const Eigen::Vector3d& origin);
+  /// @param origins one for each scan
+  SensorOriginSource(std::shared_ptr<const ScanSource> whole, std::vector<Eigen::Vector3d> origins);
 
   [[nodiscard]] std::size_t size() const override { return whole_->size(); }
   /// @throws DataError also if no point is left
@@ -27,7 +29,7 @@ class SensorOriginSource : public ScanSource {
 
  private:
   std::shared_ptr<const ScanSource> whole_;
-  Eigen::Vector3d origin_;
+  std::vector<Eigen::Vector3d> origins_;
   SensorChoice sensor_;
 };
 

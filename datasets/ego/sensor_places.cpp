@@ -52,7 +52,8 @@ SensorPlaces parse_sensor_places(const std::string& text) {
       text +
       ": expected X,Y,Z, the position of the sensor in the frame of the points, up to "
       "100 m, such as 1.2,0,1.8; or, for merged clouds with a field that names the "
-      "sensor, one position for each of its numbers: lidar_id:0=1.2,0,1.8/1=-1,0,1.8.");
+      "sensor, one position for each of its numbers: lidar_id:0=1.2,0,1.8/1=-1,0,1.8; or, for "
+      "several topics of a recording, one for each: topic:0=1.2,0,1.8/1=-1,0,1.8.");
 }
 
 std::string sensor_places_text(const SensorPlaces& places) {

@@ -13,8 +13,12 @@
 
 namespace raymoval {
 
+/// The field of places of several topics of a recording, which have their position in --topic as
+/// number.
+inline constexpr const char* kTopicField = "topic";
+
 /// Where the beams of a scan start, in the frame of its points, metres: one sensor, or several
-/// whose clouds were merged and whose numbers stand in a field of the points.
+/// whose clouds were merged and whose numbers stand in a field of the points, or several topics.
 struct SensorPlaces {
   SensorPlaces() = default;
   SensorPlaces(const Eigen::Vector3d& place) : one(place) {}  // NOLINT: a place is one sensor.

@@ -29,8 +29,10 @@ std::vector<PlacedPoint> placed_points(const Scan& scan, float nearest, float fa
     if (!(range >= nearest && range <= farthest)) continue;
     PlacedPoint p;
     for (int axis = 0; axis < 3; ++axis) {
-      p.at[axis] = static_cast<int>(std::lround(static_cast<double>(point[axis]) * 1000.0));
-      p.code |= spread_bits(static_cast<std::uint64_t>(p.at[axis] + kBias) >> kPlacedBits) << axis;
+      const double at = static_cast<double>(point[axis]) * 1000.0;
+      p.at[axis] = static_cast<int>(at + std::copysign(0.5, at));  // Faster than std::lround.
+      const auto cell = static_cast<std::uint64_t>(p.at[axis] + kBias) >> kPlacedBits;  // 10 bits
+      p.code |= static_cast<std::uint32_t>(spread_bits(cell) << axis);
     }
     placed.push_back(p);
   }

@@ -22,7 +22,7 @@ struct SurfacePatch {
 /// A point in whole millimetres, with the Morton code of its cell of 256 mm. Sorted by code, the
 /// points of each cell of 256 mm times a power of two are contiguous.
 struct PlacedPoint {
-  std::uint64_t code = 0;
+  std::uint32_t code = 0;
   Eigen::Vector3i at;
 };
 inline constexpr int kPlacedBits = 8;

@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "datasets/bag_scans/bag_source.h"
 #include "datasets/bag_scans/topics.h"
+#include "datasets/bags/messages/point_cloud.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/frames.h"
@@ -35,6 +36,17 @@ Finding completed(Finding finding, const InspectionCheck& check,
   finding.consequence = check.consequence;
   if (finding.where.empty()) finding.where = samples.pose_source() + ", " + samples.all_frames();
   return finding;
+}
+
+/// Tells how to read all topics with clouds, if there are several.
+void add_other_topics(const Bag& bag, std::vector<std::string>& notes) {
+  std::vector<std::string> names;
+  for (const BagTopic& topic : bag.topics()) {
+    if (has_points(topic.type) && topic.messages > 0) names.push_back(topic.name);
+  }
+  if (names.size() < 2) return;
+  notes.push_back("If these topics are of several sensors of one vehicle, --topic " +
+                  join(names, ",") + " reads their scans together.");
 }
 
 }  // namespace
@@ -77,6 +89,7 @@ InspectionReport inspect(const Sequence& sequence, int threads, const std::atomi
   report.notes.insert(report.notes.end(), sequence.losses.begin(), sequence.losses.end());
   if (const auto* scans = dynamic_cast<const BagScanSource*>(&stored_source(sequence))) {
     report.notes.push_back(bag_name(scans->bag()) + ": " + topics_sentence(scans->bag()));
+    if (sequence.topics.empty()) add_other_topics(scans->bag(), report.notes);
   }
   report.sensor = inspection::sensor_text(samples);
   if (inspection::can_measure_fit(samples)) report.pose_fit = inspection::pose_fit_text(samples);
@@ -176,7 +189,8 @@ std::vector<Finding> unopenable_findings(const std::string& path, const Sequence
 }
 
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
-                              const OpenContext& context) {
+                              const OpenContext& context,
+                              const std::function<void(const Sequence&)>& opened) {
   InspectionReport report;
   report.sequence = std::filesystem::path(path).filename().string();
   report.findings = unopenable_findings(path, options);
@@ -193,6 +207,7 @@ InspectionReport inspect_path(const std::string& path, const SequenceOptions& op
          .remedy = error.gap().remedy});
     return report;
   }
+  if (opened) opened(*sequence);
   return inspect(*sequence, context.threads, context.cancel);
 }
 

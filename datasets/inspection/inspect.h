@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ InspectionReport inspect(const Sequence& sequence, int threads = 1,
 /// The same for a path of `open_sequence`. Some mistakes prevent opening a sequence. If a check
 /// exists for the mistake (a pose file with another count, .pcd files without VIEWPOINT), it is a
 /// finding. @throws other errors of `open_sequence`
+/// @param opened is called with the sequence before its checks; may be null
 InspectionReport inspect_path(const std::string& path, const SequenceOptions& options,
-                              const OpenContext& context = {});
+                              const OpenContext& context = {},
+                              const std::function<void(const Sequence&)>& opened = nullptr);
 
 /// The findings of `inspect_path` that prevent opening the sequence at `path`.
 std::vector<Finding> unopenable_findings(const std::string& path, const SequenceOptions& options);

@@ -35,7 +35,7 @@ void add_labels(ContentHasher& hasher, const std::vector<std::uint32_t>& labels)
   add_vector(hasher, labels);
 }
 
-/// Adds sensor model, range limits, label rule, and up if it is not the world's z.
+/// Adds sensor model, range limits, label rule, and spin axis and up if they are not z.
 void add_settings(ContentHasher& hasher, const Sequence& sequence) {
   const SensorModel& sensor = sequence.scans->sensor();
   for (const double value :
@@ -44,6 +44,9 @@ void add_settings(ContentHasher& hasher, const Sequence& sequence) {
         sensor.missing_return_is_meaningful ? 1.0 : 0.0, sequence.range_m.min, sequence.range_m.max,
         sequence.labels ? 1.0 : 0.0}) {
     add_number(hasher, value);
+  }
+  if (sensor.spin_axis != Eigen::Vector3d::UnitZ()) {
+    hasher.add(sensor.spin_axis.data(), sizeof(double) * 3);
   }
   add_vector(hasher, sequence.label_rule.moving);
   add_vector(hasher, sequence.label_rule.ignored);

@@ -13,6 +13,7 @@ namespace raymoval::registration {
 struct PairDistance {
   std::size_t from = 0, to = 0;  ///< Positions of the scans, `from` < `to`.
   double distance_m = 0.0;       ///< RMS along the normals, without the sensor's noise.
+  bool is_return = false;        ///< The path returned to the place of `from`.
 };
 
 /// How well poses fit the scans.
@@ -38,9 +39,9 @@ inline bool is_within_limits(double median_m, double worst_m) {
 bool fits(const PoseFit& fit);
 
 /// Measures how well the poses of `scans` fit. Pairs of overlapping scans are registered; the
-/// distance is how far registration moves surfaces. Pairs cover the whole sequence: successive
-/// scans, stations along the path, every fourth station, and returns to a place. So each jump of
-/// the poses lies between two scans of a pair.
+/// distance is how far registration moves surfaces. Pairs cover the whole sequence: stations
+/// along the path, scans between them, every fourth station, and returns to a place. So each jump
+/// of the poses lies between two scans of a pair.
 /// @param threads the largest number of threads; the result does not depend on it
 /// @throws DataError if a scan cannot be read; Cancelled
 PoseFit measure_pose_fit(const ScanSource& scans, int threads,

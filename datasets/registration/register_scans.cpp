@@ -1,37 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "datasets/registration/register_scans.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/sampling.h"
+#include "datasets/registration/plane_step.h"
 
 namespace raymoval::registration {
 namespace {
 
 using Eigen::Vector3d;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kMostPoints = 1500;
+constexpr std::size_t kFewPoints = 300;  // They show whether a wide reach is worth its time.
 constexpr std::size_t kFewestMatches = 50;
 constexpr float kLikeNormal = 0.85F;  // cosine
 constexpr double kOnSurface = 0.1;    // metres
 constexpr double kLeastReach = 0.6;   // metres from a point to its counterpart
 constexpr double kWideReach = 3.0;    // the same for guesses with a large error
+constexpr double kOtherReach = 1.5;   // the same for other guesses
 constexpr double kLeastCut = 0.05;    // metres at which Tukey's weight ends
-constexpr double kDetermined = 0.01;  // Least share of the weights that determines a direction.
-constexpr double kBetter = 0.03;      // Least gain in overlap of a motion far from the guess.
+constexpr double kOnePlace = 0.5;     // metres
+constexpr double kAcross = 0.3;       // Least sine of the angle between a way and a surface across.
+constexpr double kClearlyBetter = 0.2;  // Least gain in overlap across the way from the guess.
 constexpr int kSteps = 15;
-
-/// A point of `to` in the frame of `from`, and its surface.
-struct Match {
-  Vector3d at, normal;
-  double distance;  ///< Signed, metres.
-};
-using Matches = std::vector<Match>;
 
 Matches find_matches(const SurfaceCloud& from, const std::vector<SurfacePoint>& points,
                      const Pose& motion, double reach) {
@@ -47,60 +43,12 @@ Matches find_matches(const SurfaceCloud& from, const std::vector<SurfacePoint>& 
   return matches;
 }
 
-/// Standard deviation of the distances by their median, for a normal distribution.
-double robust_deviation(const Matches& matches) {
-  if (matches.empty()) return 0.0;
-  std::vector<double> sizes;
-  for (const Match& match : matches) sizes.push_back(std::abs(match.distance));
-  return 1.4826 * median_in_place(sizes);
-}
-
 double overlap_of(const Matches& matches, std::size_t points) {
   double sum = 0.0;
   for (const Match& match : matches) {
     sum += std::max(0.0, 1.0 - std::abs(match.distance) / kOnSurface);
   }
   return points == 0 ? 0.0 : sum / static_cast<double>(points);
-}
-
-/// One Gauss-Newton step about the centre of the matches. Rotations are scaled to the distance that
-/// they move points.
-Pose step_of(const Matches& matches, double cut) {
-  Vector3d centre = Vector3d::Zero();
-  for (const Match& match : matches) centre += match.at;
-  centre /= static_cast<double>(matches.size());
-  double square = 0.0;
-  for (const Match& match : matches) square += (match.at - centre).squaredNorm();
-  const double lever = std::sqrt(square / static_cast<double>(matches.size()));
-
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  double total = 0.0;
-  for (const Match& match : matches) {
-    const double u = match.distance / cut;
-    if (std::abs(u) >= 1.0) continue;
-    const double weight = (1.0 - u * u) * (1.0 - u * u);
-    Vector6d jacobian;
-    jacobian << (match.at - centre).cross(match.normal) / lever, match.normal;
-    hessian += weight * jacobian * jacobian.transpose();
-    gradient += weight * match.distance * jacobian;
-    total += weight;
-  }
-  Pose step = Pose::Identity();
-  if (total < static_cast<double>(kFewestMatches) / 2.0) return step;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(hessian / total);
-  Vector6d delta = Vector6d::Zero();
-  for (int k = 0; k < 6; ++k) {
-    if (solver.eigenvalues()[k] < kDetermined) continue;
-    const Vector6d direction = solver.eigenvectors().col(k);
-    delta -= direction.dot(gradient) / total / solver.eigenvalues()[k] * direction;
-  }
-  const Vector3d turn = delta.head<3>() / lever;
-  if (turn.norm() > 1e-12) {
-    step.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  }
-  step.translation() = centre + delta.tail<3>() - step.linear() * centre;
-  return step;
 }
 
 /// Searches counterparts within `reach` metres at first, and nearer with each step.
@@ -111,8 +59,8 @@ Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, P
     const Matches matches = find_matches(from, points, motion, now);
     if (matches.size() < kFewestMatches) break;
     const double loose = 0.6 * reach * std::pow(0.6, k);
-    const Pose step =
-        step_of(matches, std::max({3.0 * robust_deviation(matches), kLeastCut, loose}));
+    const double cut = std::max({3.0 * robust_deviation(matches), kLeastCut, loose});
+    const Pose step = plane_step(matches, cut).motion;
     motion = step * motion;
     const double moved =
         step.translation().norm() + 10.0 * (step.linear() - Eigen::Matrix3d::Identity()).norm();
@@ -121,31 +69,104 @@ Pose refine(const SurfaceCloud& from, const std::vector<SurfacePoint>& points, P
   return motion;
 }
 
-std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all) {
+std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& all, std::size_t most) {
   std::vector<SurfacePoint> some;
-  for (const std::size_t i : evenly_spread(all.size(), kMostPoints)) some.push_back(all[i]);
+  for (const std::size_t i : evenly_spread(all.size(), most)) some.push_back(all[i]);
   return some;
+}
+
+/// As many points with normals along each axis: ground far away and in rings would outweigh the few
+/// points that determine a motion along it (sampling of normals, Rusinkiewicz and Levoy 2001).
+std::vector<SurfacePoint> balanced(const std::vector<SurfacePoint>& all) {
+  std::array<std::vector<SurfacePoint>, 3> groups;
+  for (const SurfacePoint& point : all) {
+    Eigen::Index axis = 0;
+    point.normal.cwiseAbs().maxCoeff(&axis);
+    groups[static_cast<std::size_t>(axis)].push_back(point);
+  }
+  std::vector<SurfacePoint> some;
+  for (const auto& group : groups) {
+    const auto chosen = thinned(group, kFewPoints / groups.size());
+    some.insert(some.end(), chosen.begin(), chosen.end());
+  }
+  return some;
+}
+
+/// Overlaps before and after a change of the motion, of the points on surfaces across the change; 0
+/// if there are few.
+std::array<double, 2> overlaps_across(const SurfaceCloud& from,
+                                      const std::vector<SurfacePoint>& points, const Pose& before,
+                                      const Pose& after) {
+  std::vector<SurfacePoint> across;
+  for (const SurfacePoint& point : points) {
+    const Vector3d at = point.position.cast<double>();
+    const Vector3d moved = after * at - before * at;
+    const double along_normal = (after.linear() * point.normal.cast<double>()).dot(moved);
+    if (std::abs(along_normal) >= kAcross * moved.norm()) across.push_back(point);
+  }
+  across = thinned(across, kFewPoints);
+  if (across.size() < kFewestMatches) return {0.0, 0.0};
+  const auto overlap = [&](const Pose& motion) {
+    return overlap_of(find_matches(from, across, motion, kLeastReach), across.size());
+  };
+  return {overlap(before), overlap(after)};
+}
+
+/// A guess, and the distance to counterparts that is searched from it.
+struct Start {
+  Pose guess;
+  double reach;
+};
+
+/// The motion with the largest overlap that registration of a few points reaches from `starts`, if
+/// it is clearly better than `reached` on the surfaces across the way between the two.
+std::optional<Pose> far_motion(const SurfaceCloud& from, const SurfaceCloud& to,
+                               const std::vector<SurfacePoint>& points,
+                               const std::vector<Start>& starts, const Pose& reached) {
+  const std::vector<SurfacePoint> few = balanced(points);
+  const auto overlap = [&](const Pose& motion) {
+    return overlap_of(find_matches(from, few, motion, kLeastReach), few.size());
+  };
+  std::optional<Pose> best;
+  double most = overlap(reached);
+  for (const Start& start : starts) {
+    const Pose motion = refine(from, few, start.guess, start.reach);
+    // From one place, rings on the ground and vehicles that move along look alike at any time.
+    if (motion.translation().norm() < kOnePlace) continue;
+    const double found = overlap(motion);
+    if (found <= most) continue;
+    most = found;
+    best = motion;
+  }
+  if (!best) return best;
+  // Far from the guess, another surface may fit a little by chance.
+  const auto [before, after] = overlaps_across(from, to.points(), reached, *best);
+  return after > before + kClearlyBetter ? best : std::nullopt;
 }
 
 }  // namespace
 
-Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess) {
-  const std::vector<SurfacePoint> points = thinned(to.points());
+Registration register_scans(const SurfaceCloud& from, const SurfaceCloud& to, const Pose& guess,
+                            const std::vector<Pose>& others) {
+  const std::vector<SurfacePoint> points = thinned(to.points(), kMostPoints);
   Registration best{.T_from_to = guess};
   Matches matches = find_matches(from, points, guess, kLeastReach);
   best.overlap = best.overlap_of_guess = overlap_of(matches, points.size());
-  double gain = 0.0;
-  for (const double reach : {kLeastReach, kWideReach}) {
-    const Pose motion = refine(from, points, guess, reach);
+  const auto improve = [&](const Pose& motion, bool is_far) {
     Matches found = find_matches(from, points, motion, kLeastReach);
     const double overlap = overlap_of(found, points.size());
-    if (overlap > best.overlap + gain) {
-      best.T_from_to = motion;
-      best.overlap = overlap;
-      matches = std::move(found);
-    }
-    gain = kBetter;  // With a wide reach, another surface may fit a little by chance.
-  }
+    if (!is_far && overlap <= best.overlap) return;
+    best.T_from_to = motion;
+    best.overlap = overlap;
+    matches = std::move(found);
+  };
+  improve(refine(from, points, guess, kLeastReach), false);
+  std::vector<Start> starts = {{guess, kWideReach}};
+  for (const Pose& other : others) starts.push_back({other, kOtherReach});
+  if (const auto far = far_motion(from, to, points, starts, best.T_from_to)) improve(*far, true);
+  const auto across = overlaps_across(from, to.points(), guess, best.T_from_to);
+  best.overlap_across_of_guess = across[0];
+  best.overlap_across = across[1];
   best.matched = matches.size();
   best.noise = robust_deviation(matches);
   const Pose back = guess * best.T_from_to.inverse();

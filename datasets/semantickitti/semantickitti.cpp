@@ -250,7 +250,8 @@ ScanPoses frame_poses(const std::filesystem::path& folder, const SequenceSetting
   sequence.input_files.push_back(path);
   const PoseFile file = read_pose_file(path, {settings.pose_format});
   // With T_sensor, the poses are not those of the camera of calib.txt.
-  if (!settings.T_sensor) sequence.T_camera_lidar = camera_calibration(folder, settings);
+  if (!settings.T_sensor && !file.of_sensor)
+    sequence.T_camera_lidar = camera_calibration(folder, settings);
   if (sequence.T_camera_lidar) {
     sequence.input_files.push_back(folder / "calib.txt");
     options.T_camera_lidar = sequence.T_camera_lidar;

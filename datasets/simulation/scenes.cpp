@@ -26,7 +26,7 @@ Layout scenes_layout() {
   layout.forms = {{"SCENE", "a scene of `raymoval list scenes`, simulated once and cached"},
                   {"SCENE:key=value,...",
                    "the same with scans=N, seed=N, sensor=NAME, pose_noise=F, rolling=skewed, "
-                   "turned=30, tilted=20"}};
+                   "turned=30, tilted=20, roll=90, pitch=0, yaw=0"}};
   layout.recognise = names_scene;
   layout.open = open_scene;
   layout.scenes = SceneNames{

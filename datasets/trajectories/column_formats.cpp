@@ -117,9 +117,11 @@ Match match_tum(const PoseText& text) {
   return fits ? Match::kYes : Match::kNo;
 }
 
-/// Accepts seven numbers as position and quaternion only in a file of HBA's name.
+/// Accepts seven numbers as position and quaternion only in a file of HBA's name. A first number
+/// that large is a time (NCLT's tables).
 Match match_hba(const PoseText& text) {
-  if (text.first().words.size() != 7) return Match::kNo;
+  constexpr double kLargest = 1e8;
+  if (text.first().words.size() != 7 || first_numbers(text).front() > kLargest) return Match::kNo;
   return text.path().extension() == ".json" ? Match::kYes : Match::kPossible;
 }
 

@@ -140,10 +140,13 @@ PoseFile read_pose_file(const std::filesystem::path& path, const PoseReading& as
   if (reading.format) check_format_name(*reading.format);
   auto binary = pose_formats::read_binary_poses(path, reading);
   if (!binary) {
-    const PoseText text(path, read_text(path));
+    std::string content = read_text(path);
+    const bool of_sensor = content.ends_with(kSensorPoses);
+    const PoseText text(path, std::move(content));
     const TextFormat& format = format_of(text, reading);
     binary = format.read(text);
     binary->format = format.name.name;
+    binary->of_sensor = of_sensor;
   }
   PoseFile& file = *binary;
   if (file.rows.empty()) {
@@ -217,7 +220,7 @@ std::vector<StampedPose> stamped_poses(const PoseFile& file, std::vector<std::st
     notes.push_back(file.path.string() + ": " + grouped_text(count) + " of " +
                     counted_text(file.rows.size(), "row") + what);
   };
-  note(none, " hold nan in place of a pose and are not used.");
+  note(none, " hold nan or zeros in place of a pose and are not used.");
   note(equal, " have the time of the row before; the poses of one time are averaged.");
   return poses;
 }

@@ -27,6 +27,7 @@ struct PoseFile {
   std::filesystem::path path;
   std::string format;            ///< Its name in the list of formats, "tum".
   bool is_binary = false;        ///< Whether it has no lines.
+  bool of_sensor = false;        ///< Whether it ends in `kSensorPoses`.
   bool has_quaternions = false;  ///< Whether the rotations are written as quaternions.
   std::vector<Row> rows;         ///< At least one.
   /// Conclusions on facts that the file does not state, in whole sentences: the unit of its times.
@@ -36,6 +37,10 @@ struct PoseFile {
   /// "poses.txt: line 12" or "poses.npy: pose 12".
   [[nodiscard]] std::string place(std::size_t row) const;
 };
+
+/// The comment at the end of pose files of this program: the poses are those of the sensor,
+/// whatever the sequence says about the poses of its own file.
+inline constexpr const char* kSensorPoses = "# poses of the sensor, by raymoval\n";
 
 /// A pose format in messages.
 struct PoseFormatName {

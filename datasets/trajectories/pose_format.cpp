@@ -157,12 +157,27 @@ Eigen::Matrix3d euler_rotation(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
+bool has_matrix(const PoseColumns& columns) {
+  return columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4;
+}
+
+/// Whether the row has the quaternion 0 or a matrix of zeros, as motion capture writes it when it
+/// loses its target.
+bool is_lost(const std::vector<double>& numbers, const PoseColumns& columns) {
+  const auto zero = [](double number) { return number == 0.0; };
+  if (has_matrix(columns)) {
+    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(columns.matrix);
+    return std::all_of(begin, begin + 12, zero);
+  }
+  return columns.rotation == Rotation::kQuaternion &&
+         std::all_of(columns.turn.begin(), columns.turn.end(),
+                     [&](std::size_t at) { return zero(numbers[at]); });
+}
+
 /// Whether a number of the pose is not finite.
 bool lacks_pose(const std::vector<double>& numbers, const PoseColumns& columns) {
   const auto bad = [&](std::size_t at) { return !std::isfinite(numbers[at]); };
-  const bool whole =
-      columns.rotation == Rotation::kMatrix3x4 || columns.rotation == Rotation::kMatrix4x4;
-  if (!whole) {
+  if (!has_matrix(columns)) {
     return std::any_of(columns.position.begin(), columns.position.end(), bad) ||
            std::any_of(columns.turn.begin(), columns.turn.end(), bad);
   }
@@ -180,7 +195,9 @@ Eigen::Matrix3d vector_rotation(const Eigen::Vector3d& vector) {
 
 Matrix3x4 pose_matrix(const std::vector<double>& numbers, const PoseColumns& columns,
                       const std::string& where) {
-  if (lacks_pose(numbers, columns)) return Matrix3x4::Constant(std::nan(""));
+  if (lacks_pose(numbers, columns) || is_lost(numbers, columns)) {
+    return Matrix3x4::Constant(std::nan(""));
+  }
   if (columns.rotation == Rotation::kMatrix3x4) return matrix_at(&numbers[columns.matrix]);
   if (columns.rotation == Rotation::kMatrix4x4) {
     check_last_row(&numbers[columns.matrix + 12], where);
@@ -246,6 +263,7 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
   file.has_quaternions = columns.rotation == Rotation::kQuaternion;
   std::vector<std::string_view> times, nanoseconds;
   std::size_t dropped = 0;
+  std::string first_lost;
   text.for_each_row([&](const TextRow& row) {
     const std::string where = text.place(row.line);
     if (row.words.size() != columns.count) {
@@ -257,6 +275,7 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
     }
     const std::vector<double> numbers = used_numbers(text, row, columns);
     file.rows.push_back({.matrix = pose_matrix(numbers, columns, where), .line = row.line});
+    if (first_lost.empty() && is_lost(numbers, columns)) first_lost = where;
     const bool timeless = columns.time && !file.rows.back().has_pose() &&
                           std::isnan(parse_number<double>(row.words[*columns.time]).value_or(0.0));
     if (timeless) {
@@ -267,6 +286,12 @@ PoseFile read_columns(const PoseText& text, const PoseColumns& columns) {
     if (columns.time) times.push_back(row.words[*columns.time]);
     if (columns.nanoseconds) nanoseconds.push_back(row.words[*columns.nanoseconds]);
   });
+  const bool any = std::any_of(file.rows.begin(), file.rows.end(),
+                               [](const PoseFile::Row& row) { return row.has_pose(); });
+  if (!any && !first_lost.empty()) {  // Both throw.
+    if (has_matrix(columns)) (void)rigid_pose(Matrix3x4::Zero(), first_lost);
+    (void)rigid_pose(Eigen::Vector3d::Zero(), Eigen::Vector4d::Zero(), first_lost);
+  }
   if (columns.time) set_stamps(file, times, nanoseconds, columns.unit);
   if (dropped > 0) {
     file.notes.push_back(file.path.string() + ": " + counted_text(dropped, "row") +

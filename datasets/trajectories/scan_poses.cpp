@@ -12,6 +12,14 @@
 namespace raymoval {
 namespace {
 
+/// `settings` without what is not true of a file of this program.
+PoseSettings settings_for(const PoseFile& file, PoseSettings settings) {
+  if (!file.of_sensor) return settings;
+  settings.T_body_sensor.reset();
+  settings.T_camera_lidar.reset();
+  return settings;
+}
+
 /// The pose of the sensor on the body.
 Pose mounting(const PoseSettings& settings) {
   if (settings.T_camera_lidar) return *settings.T_camera_lidar;
@@ -88,8 +96,8 @@ ScanPoses by_row(const PoseFile& file, const ScanKeys& scans, const PoseSettings
       result.poses.back() = sensor_pose(rigid_pose(file, row), settings);
     }
   }
-  report_missing(file, "their rows hold nan", "Take a trajectory with a pose for each scan.",
-                 result);
+  report_missing(file, "their rows hold nan or zeros",
+                 "Take a trajectory with a pose for each scan.", result);
   result.stamps = assumed_stamps(scans, &file);
   if (file.stamped() && scans.stamps.empty()) {
     const Nanoseconds first = *file.rows.front().stamp;
@@ -183,7 +191,8 @@ bool fits_rows(const PoseFile& file, const ScanKeys& scans) {
                          : file.rows.size() == scans.row_count;
 }
 
-ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSettings& settings) {
+ScanPoses scan_poses(const PoseFile& file, const ScanKeys& scans, const PoseSettings& given) {
+  const PoseSettings settings = settings_for(file, given);
   ScanPoses result;
   if (file.rows.size() == 1 && scans.row_count > 1) {
     refuse_offset(settings, "there is one pose for all scans");
@@ -213,9 +222,9 @@ ScanPoses stationary_poses(const ScanKeys& scans, const PoseSettings& settings) 
 }
 
 std::string ways_to_poses() {
-  return "Odometry programs such as KISS-ICP, GLIM or FAST-LIO estimate poses, and raymoval reads "
-         "their files (see docs/poses.md): --poses FILE. If the sensor was stationary, use --poses "
-         "identity.";
+  return "To estimate them from the scans, use --poses estimate. Odometry programs such as "
+         "KISS-ICP, GLIM or FAST-LIO estimate poses, too, and raymoval reads their files (see "
+         "docs/poses.md): --poses FILE. If the sensor was stationary, use --poses identity.";
 }
 
 }  // namespace raymoval

@@ -148,6 +148,25 @@ std::optional<NameTime> time_in_name(std::string_view stem) {
   return NameTime{whole, part, false};
 }
 
+/// The date and time that begins at `rest`, such as "2014_11_10_11_32_17.25" or
+/// "20141110T113217"; any mark, or none, may separate its parts.
+std::optional<Nanoseconds> date_at(std::string_view rest) {
+  constexpr std::string_view kDateForm = "dddd-dd-dd dd:dd:dd";
+  std::string date;
+  for (const char part : kDateForm) {
+    const bool has_digit = !rest.empty() && is_digit(rest.front());
+    if (part == 'd' && !has_digit) return std::nullopt;
+    date += part == 'd' ? rest.front() : part;
+    const bool mark = part != 'd' && !rest.empty() &&
+                      std::string_view("-_.: T").find(rest.front()) != std::string_view::npos;
+    if (part == 'd' || mark) rest.remove_prefix(1);
+  }
+  const char mark = rest.empty() ? '\0' : rest.front();
+  std::string_view decimals = digits_at(rest, rest.empty() || is_digit(mark) ? 0 : 1);
+  if (mark != '.' && decimals.size() % 3 != 0) decimals = {};
+  return parse_date(decimals.empty() ? date : date + "." + std::string(decimals));
+}
+
 /// A way to read the digits behind the seconds.
 struct NameReading {
   int digits = 0;  ///< They count 10^-digits s each, without leading zeros; 0: they are decimals.
@@ -189,18 +208,14 @@ std::optional<Nanoseconds> stamp_of(const NameTime& time, int digits) {
   return *whole + *part;
 }
 
-/// Fills in the times and their cost: the share outside `span`, and the unevenness of the spacing.
+/// Fills in the cost of a reading: the share outside `span`, and the unevenness of the spacing.
 /// @return false if two times are equal, or nearer than for any sensor
-bool read_names(const std::vector<NameTime>& times,
-                const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span,
-                NameReading& reading) {
+bool is_plausible(NameReading& reading,
+                  const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span) {
   constexpr double kLeastSpacing = 5e6;  // Nanoseconds.
   double outside = 0.0;
-  for (const NameTime& time : times) {
-    const auto stamp = stamp_of(time, reading.digits);
-    if (!stamp) return false;
-    reading.stamps.push_back(*stamp);
-    if (span && (*stamp < span->first || *stamp > span->second)) outside += 1.0;
+  for (const Nanoseconds stamp : reading.stamps) {
+    if (span && (stamp < span->first || stamp > span->second)) outside += 1.0;
   }
   std::vector<Nanoseconds> sorted = reading.stamps;
   std::sort(sorted.begin(), sorted.end());
@@ -209,13 +224,41 @@ bool read_names(const std::vector<NameTime>& times,
     if (sorted[i] == sorted[i - 1]) return false;
     gaps.push_back(static_cast<double>(sorted[i] - sorted[i - 1]));
   }
-  reading.cost = outside / static_cast<double>(times.size());
+  reading.cost = outside / static_cast<double>(sorted.size());
   if (gaps.empty()) return true;
   const double usual = median(gaps);
   double uneven = 0.0;
   for (const double gap : gaps) uneven += std::abs(gap - usual) / usual;
   reading.cost += std::min(1.0, uneven / static_cast<double>(gaps.size()));
   return usual >= kLeastSpacing;
+}
+
+/// Fills in the times of a reading, and their cost. @return false if it is not plausible
+bool read_names(const std::vector<NameTime>& times,
+                const std::optional<std::pair<Nanoseconds, Nanoseconds>>& span,
+                NameReading& reading) {
+  for (const NameTime& time : times) {
+    const auto stamp = stamp_of(time, reading.digits);
+    if (!stamp) return false;
+    reading.stamps.push_back(*stamp);
+  }
+  return is_plausible(reading, span);
+}
+
+/// The dates in the names of several scans; empty unless each has one. In
+/// "20141110_113217_000123" the last number is that of a scan.
+std::optional<NameStamps> dates_in_names(const std::vector<std::string>& stems) {
+  NameReading reading;
+  for (const std::string& stem : stems) {
+    std::optional<Nanoseconds> date;
+    for (std::size_t at = 0; at < stem.size() && !date; ++at) {
+      if (at == 0 || !is_digit(stem[at - 1])) date = date_at(std::string_view(stem).substr(at));
+    }
+    if (!date) return std::nullopt;
+    reading.stamps.push_back(*date);
+  }
+  if (stems.size() < 2 || !is_plausible(reading, std::nullopt)) return std::nullopt;
+  return NameStamps{std::move(reading.stamps), true, ""};
 }
 
 }  // namespace
@@ -368,7 +411,7 @@ std::optional<NameStamps> stamps_in_names(
   for (const std::string& stem : stems) {
     const auto time = time_in_name(stem);
     const bool same = time && (times.empty() || time->since_1970 == times.front().since_1970);
-    if (!same) return std::nullopt;
+    if (!same) return dates_in_names(stems);
     times.push_back(*time);
   }
   if (times.empty()) return std::nullopt;

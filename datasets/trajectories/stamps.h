@@ -56,7 +56,8 @@ struct NameStamps {
 
 /// The times in the names of scans, without extensions: seconds since 1970 with any decimals
 /// ("1317384506.4", "cloud_1317384506_400000100"), also without leading zeros behind the mark; such
-/// times as 13, 16 or 19 digits; and decimal numbers with another zero ("0.1").
+/// times as 13, 16 or 19 digits; decimal numbers with another zero ("0.1"); and dates
+/// ("2014_11_10_11_32_17.25", "20141110T113217").
 /// @param stems in any order
 /// @param span first and last time of the poses; of several interpretations, the most even one
 ///   within `span` is chosen

@@ -113,10 +113,9 @@ std::string remedy(const std::vector<Nanoseconds>& stamps, const SensorMotion& m
 
 }  // namespace
 
-SensorMotion SensorMotion::followed_by(const Pose& T_body_sensor) const {
+SensorMotion SensorMotion::followed_by(const std::vector<MotionStep>& steps) const {
   SensorMotion motion = *this;
-  motion.steps_.emplace_back();
-  motion.steps_.back().fixed = T_body_sensor;
+  motion.steps_.insert(motion.steps_.end(), steps.begin(), steps.end());
   return motion;
 }
 

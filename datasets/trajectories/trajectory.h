@@ -92,8 +92,8 @@ class SensorMotion {
 
   /// T_world_sensor at `stamp`. Empty before the first pose, after the last pose, and in gaps.
   [[nodiscard]] std::optional<Pose> at(Nanoseconds stamp) const;
-  /// This motion of a body, then a fixed step to a sensor on it.
-  [[nodiscard]] SensorMotion followed_by(const Pose& T_body_sensor) const;
+  /// This motion of a body, then steps to a sensor on it.
+  [[nodiscard]] SensorMotion followed_by(const std::vector<MotionStep>& steps) const;
   /// The time span in which all steps are known, on the clock of the scans.
   [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> span() const;
   [[nodiscard]] Nanoseconds time_offset() const { return time_offset_; }

@@ -8,7 +8,6 @@
 
 #include "core/angle.h"
 #include "core/sampling.h"
-#include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/geometry/surface_patches.h"
 
@@ -38,14 +37,6 @@ std::optional<Eigen::Vector3d> parse_up(const std::string& text) {
   return Eigen::Vector3d((up / largest).normalized());
 }
 
-std::string up_text(const Eigen::Vector3d& up) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (std::abs(up[axis]) < 1.0 - 1e-12) continue;
-    return std::string(up[axis] < 0.0 ? "-" : "") + static_cast<char>('x' + axis);
-  }
-  return fixed_text(up.x(), 3) + "," + fixed_text(up.y(), 3) + "," + fixed_text(up.z(), 3);
-}
-
 const char* up_source_name(UpDirection::Source source) {
   if (source == UpDirection::Source::kWorldZ) return "world z";
   return source == UpDirection::Source::kGiven ? "given" : "estimated";
@@ -53,7 +44,7 @@ const char* up_source_name(UpDirection::Source source) {
 
 std::string up_line(const UpDirection& up) {
   if (up.is_world_z()) return "";
-  return "up is " + up_text(up.direction) + " of the world (" +
+  return "up is " + axis_text(up.direction) + " of the world (" +
          (up.source == UpDirection::Source::kGiven
               ? "as given"
               : "estimated from the scans; --up z overrides it") +
@@ -349,7 +340,7 @@ GravityEvidence estimate_gravity(const ScanSource& scans, const Vector3d& usual)
 
 UpChoice::UpChoice(const std::optional<Eigen::Vector3d>& given) {
   if (!given) return;
-  up_ = UpDirection{*given, UpDirection::Source::kGiven};
+  known_ = up_ = UpDirection{*given, UpDirection::Source::kGiven};
 }
 
 const UpDirection& UpChoice::get(const ScanSource& scans) const {

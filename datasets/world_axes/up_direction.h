@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scan/scan_source.h"
+#include "core/scan/local_frame.h"
 
 namespace raymoval {
 
@@ -30,9 +30,6 @@ std::optional<Eigen::Vector3d> parse_up(const std::string& text);
 /// For messages.
 inline constexpr const char* kUpForm =
     "expected an axis of the world (x, -x, y, -y, z or -z), or three numbers x,y,z, such as 0,-1,0";
-
-/// "-y" for an axis, else "0.000,0.342,0.940".
-std::string up_text(const Eigen::Vector3d& up);
 
 /// "world z", "estimated" or "given".
 const char* up_source_name(UpDirection::Source source);
@@ -83,11 +80,14 @@ class UpChoice {
  public:
   explicit UpChoice(const std::optional<Eigen::Vector3d>& given);
   /// A known direction, without an estimate.
-  explicit UpChoice(const UpDirection& known) : up_(known) {}
+  explicit UpChoice(const UpDirection& known) : known_(known), up_(known) {}
   /// Thread-safe. @throws DataError if a scan cannot be read
   const UpDirection& get(const ScanSource& scans) const;
+  /// The direction that was known from the start, or none.
+  [[nodiscard]] const std::optional<UpDirection>& known() const { return known_; }
 
  private:
+  std::optional<UpDirection> known_;
   mutable std::once_flag once_;
   mutable std::optional<UpDirection> up_;
 };

@@ -9,6 +9,9 @@
 #include "core/parallel.h"
 #include "core/point_tree.h"
 #if RAYMOVAL_PCL
+// PCL's planes are compiled here: to load its library of models would double the time that the
+// program takes to start.
+#define PCL_NO_PRECOMPILE
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>

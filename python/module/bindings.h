@@ -17,6 +17,7 @@ void bind_sequences(py::module_& module);
 void bind_masks(py::module_& module);
 void bind_remover(py::module_& module);
 void bind_descriptions(py::module_& module);
+void bind_poses(py::module_& module);
 void bind_clean(py::module_& module);
 void bind_scores(py::module_& module);
 void bind_runs(py::module_& module);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_raymoval, module) {
   bind_masks(module);
   bind_remover(module);
   bind_descriptions(module);
+  bind_poses(module);
   bind_clean(module);
   bind_scores(module);
   bind_runs(module);

@@ -23,7 +23,6 @@ std::pair<std::string, std::vector<std::string>> run_page(const std::string& fol
     PageRequest request;
     request.run = &run;
     request.methods = &MethodRegistry::built_in();
-    request.with_points = has_page_view();
     request.points = points;
     request.threads = hardware_threads();
     request.progress = work.progress;
@@ -43,11 +42,7 @@ Scene scene_of(const HeldSequence& held, const MaskStore& masks, std::size_t poi
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
     if (work.cancel->load()) throw Cancelled();
     const Scan scan = sequence.scans->load(i);
-    const Mask mask = masks.get(i);
-    builder.add_scan(scan.name, scan.T_world_sensor.translation());
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-      builder.add_point(scan.T_world_sensor * scan.points[k].cast<double>(), mask[k] != 0);
-    }
+    builder.add(scan, masks.get(i));
     work.progress->advance();
   }
   work.progress->end();
@@ -57,10 +52,6 @@ Scene scene_of(const HeldSequence& held, const MaskStore& masks, std::size_t poi
 /// The page of `raymoval clean --html`.
 std::string masks_page(const HeldSequence& held, const py::object& given, std::size_t points,
                        const py::object& on_progress) {
-  if (!has_page_view()) {
-    throw UsageError(
-        "this raymoval was built without the 3-D view (that needs esbuild and three.js).");
-  }
   const MaskStore masks = masks_from(given, held);
   std::string html;
   run_interruptibly(on_progress, [&](const WorkContext& work) {
@@ -78,7 +69,6 @@ void bind_pages(py::module_& module) {
   module.def("run_page", &run_page, py::arg("folder"), py::arg("points"), py::arg("on_progress"));
   module.def("masks_page", &masks_page, py::arg("sequence"), py::arg("masks"), py::arg("points"),
              py::arg("on_progress"));
-  module.def("has_page_view", &has_page_view);
 }
 
 }  // namespace raymoval::python

@@ -3,6 +3,8 @@
 
 #include <pybind11/stl.h>
 
+#include <tuple>
+
 #include "core/text.h"
 #include "python/module/bindings.h"
 
@@ -12,7 +14,8 @@ void bind_sensors(py::module_& module) {
   py::class_<SensorModel>(module, "SensorModel",
                           "What is known of a sensor. Angles in radians in the sensor frame "
                           "(azimuth counter-clockwise from +x about +z, elevation up from the x-y "
-                          "plane), ranges in metres.")
+                          "plane), ranges in metres. If the sensor spins about another axis than "
+                          "+z, angles are about that axis.")
       .def(py::init<>())
       .def_static("named", &sensor_model_named, py::arg("name"),
                   "The data sheet values of a known sensor (see `sensors`).")
@@ -30,6 +33,13 @@ void bind_sensors(py::module_& module) {
       .def_readwrite("range_max", &SensorModel::range_max, "Farthest range that it reports.")
       .def_readwrite("missing_return_is_meaningful", &SensorModel::missing_return_is_meaningful,
                      "Whether a direction without a return means that nothing stood within range.")
+      .def_property_readonly(
+          "spin_axis",
+          [](const SensorModel& sensor) {
+            return std::make_tuple(sensor.spin_axis.x(), sensor.spin_axis.y(),
+                                   sensor.spin_axis.z());
+          },
+          "Unit vector of the frame of the points; +z if none was found.")
       .def_readonly("basis", &SensorModel::basis,
                     "What an estimate rests on; empty for a sensor of known values.")
       .def_readonly("beams", &SensorModel::beams,

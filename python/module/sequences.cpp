@@ -204,7 +204,7 @@ void bind_facts(py::class_<HeldSequence>& sequence) {
           "up",
           [](const HeldSequence& held) {
             const py::gil_scoped_release without_gil;
-            return up_text(held.sequence->up().direction);
+            return axis_text(held.sequence->up().direction);
           },
           "The direction of the world that is up, such as 'z' or '-y'; estimated if nothing says "
           "it.")

@@ -20,13 +20,13 @@ from raymoval._raymoval import (Bins, Cancelled, ConfigurationError, DataError, 
                                 scenes, sensors)
 from raymoval._results import (Comparison, ProtocolScore, Run, Scores, compare, load_run, run,
                                score)
-from raymoval._sequences import clean, from_arrays, open, times
+from raymoval._sequences import clean, estimate, from_arrays, open, refine, times
 
 __all__ = [
     "Bins", "Cancelled", "Comparison", "ConfigurationError", "DataError", "Error",
     "FirstHitCaster", "InternalError", "Masks", "Method", "MethodError", "OccupancyMap", "Page",
     "Parameter", "ProgressState", "Protocol", "ProtocolScore", "Rate", "Remover", "Run", "Scan",
     "Scans", "Scores", "SensorModel", "Sequence", "Sink", "UsageError", "Variant", "__version__",
-    "clean", "compare", "describe", "from_arrays", "load_run", "methods", "open", "protocols",
-    "run", "scenes", "score", "sensors", "show", "times",
+    "clean", "compare", "describe", "estimate", "from_arrays", "load_run", "methods", "open", "protocols",
+    "refine", "run", "scenes", "score", "sensors", "show", "times",
 ]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Sequence
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -92,6 +93,56 @@ def clean(scans: Union[_raymoval.Sequence, Iterable[npt.ArrayLike]],
         return _raymoval.clean_with(sequence, remover_name(method), method, threads, on_progress)
 
 
+def _with_new_poses(sequence: _raymoval.Sequence, refines: bool,
+                    file: Union[str, os.PathLike[str], None], threads: int,
+                    progress: Progress) -> npt.NDArray[np.float64]:
+    with told(progress) as on_progress:
+        poses, notes = _raymoval.make_poses(sequence, refines, "" if file is None else os.fspath(file),
+                                            threads, on_progress)
+    for note in notes:
+        if not note.startswith(("The poses are estimated", "The poses are refined")):
+            warnings.warn(note, stacklevel=3)
+    return poses
+
+
+def estimate(scans: Union[_raymoval.Sequence, Sequence[npt.ArrayLike]], *,
+             times: Optional[npt.ArrayLike] = None,
+             file: Union[str, os.PathLike[str], None] = None, threads: int = 0,
+             progress: Progress = True) -> npt.NDArray[np.float64]:
+    """Estimates the poses of scans from the scans alone.
+
+    scans, times: as `from_arrays`; or a sequence of `open`, whose poses are not used.
+    file: also writes the poses, in TUM's format, or in KITTI's if the name ends in .kitti or
+        _kitti.txt. An existing file is replaced.
+    threads: how many it may use; 0: as many as there are. The answer does not depend on it.
+    Returns n x 4 x 4, T_world_sensor; the first is the identity, or near it after a closed loop.
+    Warns of scans whose motion is uncertain, and of a sensor at rest.
+    Raises DataError that names the scan that does not overlap with those before it.
+    """
+    if not isinstance(scans, _raymoval.Sequence):
+        scans = list(scans)
+        scans = from_arrays(scans, np.tile(np.eye(4), (len(scans), 1, 1)), times=times)
+    return _with_new_poses(scans, False, file, threads, progress)
+
+
+def refine(scans: Union[_raymoval.Sequence, Iterable[npt.ArrayLike]],
+           poses: Optional[npt.ArrayLike] = None, *, times: Optional[npt.ArrayLike] = None,
+           file: Union[str, os.PathLike[str], None] = None, threads: int = 0,
+           progress: Progress = True) -> npt.NDArray[np.float64]:
+    """Improves the poses of scans: noise, jumps, and drift on a return to a place.
+
+    scans, poses, times: as `from_arrays`; or one sequence of `open`, which has all.
+    file, threads: as `estimate`.
+    Returns n x 4 x 4, in the world frame of the given poses. Those are returned, with a warning, if
+    refined poses would fit the scans worse.
+    """
+    if not isinstance(scans, _raymoval.Sequence):
+        scans = from_arrays(scans, poses, times=times)  # type: ignore[arg-type]
+    elif poses is not None or times is not None:
+        raise _raymoval.UsageError("an opened sequence has poses and times of its own.")
+    return _with_new_poses(scans, True, file, threads, progress)
+
+
 def times(sequence: _raymoval.Sequence, *, progress: Progress = True) -> npt.NDArray[np.float64]:
     """The times of all scans, n seconds since the first scan of the data set. Reads all of them;
     `Scan.time` is that of one."""
@@ -99,4 +150,4 @@ def times(sequence: _raymoval.Sequence, *, progress: Progress = True) -> npt.NDA
         return _raymoval.times(sequence, on_progress)
 
 
-__all__ = ["clean", "from_arrays", "open", "times"]
+__all__ = ["clean", "estimate", "from_arrays", "open", "refine", "times"]

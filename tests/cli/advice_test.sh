@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The advice of the program for a folder, a suite, a run or an output that is not the expected one.
-# Usage: advice_test.sh PATH/TO/raymoval 1|0 1|0
-# 1 if its reports have a 3-D view, and if it has PCL.
+# Usage: advice_test.sh PATH/TO/raymoval 1|0
+# 1 if it has PCL.
 set -uo pipefail
 raymoval=$(readlink -f "$1")
-view=$2
-has_pcl=$3
+has_pcl=$2
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export RAYMOVAL_CACHE=$work/cache
 short=(--sequence street --frames 0:2 --quiet)
@@ -38,18 +37,12 @@ rm -r town suites/town
 expect 2 "--data town: no such folder" picture kept -o map.png --overwrite --only '*' --quiet --data town
 
 # A page with points is not replaced by one without them where --data leads elsewhere.
-if [[ $view -eq 1 ]]; then
-  expect 0 "wrote" report kept -o page.html --quiet --data data/05
-  cp page.html before.html
-  expect 2 "no such folder" report kept -o page.html --overwrite --quiet --data nowhere
-  expect 2 "it holds 1 scan, and the run had 2" report kept -o page.html --overwrite --quiet --data one
-  expect 2 "no known layout" report kept -o page.html --overwrite --quiet --data empty
-  holds "the page is as it was" cmp page.html before.html
-else
-  expect 2 "which this program was built without" report kept -o page.html --quiet --data data/05
-  expect 2 "which this program was built without" report kept -o page.html --points 5000
-  expect 0 "wrote" report kept -o page.html --quiet --overwrite
-fi
+expect 0 "wrote" report kept -o page.html --quiet --data data/05
+cp page.html before.html
+expect 2 "no such folder" report kept -o page.html --overwrite --quiet --data nowhere
+expect 2 "it holds 1 scan, and the run had 2" report kept -o page.html --overwrite --quiet --data one
+expect 2 "no known layout" report kept -o page.html --overwrite --quiet --data empty
+holds "the page is as it was" cmp page.html before.html
 expect 2 "--data data/05: is for the 3-D view, which --no-points leaves out" \
   report kept --no-points --data data/05
 

@@ -61,6 +61,24 @@ for frame in range(first, last + 1, stride):
 PY
 }
 
+# edits_of PAGE KEY=JSON...: prints the edits that a page of `clean --html` exports, without corrections but
+# for these keys.
+edits_of() {
+  python3 - "$@" <<'PY'
+import base64, json, re, sys, zlib
+stream = re.search(r'id="scene-0-review">([^<]*)<', open(sys.argv[1]).read()).group(1)
+edits = {**json.loads(zlib.decompress(base64.b64decode(stream))), "keep": [], "remove": []}
+edits.update((key, json.loads(value)) for key, value in (pair.split("=", 1) for pair in sys.argv[2:]))
+print(json.dumps(edits))
+PY
+}
+
+# sparse_vlp16: a sensor with every second column of a VLP-16: half of the points.
+sparse_vlp16() {
+  sed 's/"azimuth_step_deg": 0.2/"azimuth_step_deg": 0.4/' \
+    "$shipped_suites/../../datasets/simulation/sensors/vlp16.json"
+}
+
 # suite_anywhere NAME: prints the path of a copy of a shipped suite that a build without PCL takes, too.
 suite_anywhere() {
   sed 's/"octomap:ground", *//' "$shipped_suites/$1.json" >"$work/$1.json"

@@ -11,7 +11,8 @@ nothing_left() {
   holds "$1 leaves nothing" test -z "$(find . -name 'map*' -o -name '*.part' -o -name labels_out)"
 }
 
-expect 0 "12 scans" simulate suburb -o drive --scans 12 --sensor vlp16 --seed 5 --quiet
+sparse_vlp16 >sparse.json
+expect 0 "12 scans" simulate suburb -o drive --scans 12 --sensor sparse.json --seed 5 --quiet
 online=(--method raymoval:online --quiet)
 expect 0 "raymoval:online removed" clean drive "${online[@]}" -o good.pcd
 cp err.txt said.txt
@@ -45,7 +46,7 @@ expect 0 "few-points: a scan has far fewer points than those around it. (clean w
 # A file that is truncated at a whole point is reported, and still cleaned.
 cp -r drive cut
 rm -r cut/labels
-truncate -s $((16 * 9000)) cut/velodyne/000007.bin
+truncate -s $((16 * 5000)) cut/velodyne/000007.bin
 expect 0 "warning: few-points: 000007.bin" clean cut "${online[@]}" -o cut.pcd
 holds "inspect finds it" grep -q "^finding few-points: 000007.bin" <("$raymoval" inspect cut --quiet)
 
@@ -53,6 +54,41 @@ holds "inspect finds it" grep -q "^finding few-points: 000007.bin" <("$raymoval"
 expect 0 "warning: nothing was removed" clean street --frames 0:1 "${online[@]}" -o none.pcd
 expect 0 "warning: more than half of all points were removed" \
   clean street --frames 1:1 --method comb --set comb.milliseconds=0 --quiet -o half.pcd
+
+# --caution: the more, the fewer points are removed.
+expect 2 "--caution 1.5: expected a number from 0" clean drive --caution 1.5 -o map.pcd
+expect 2 "--caution: raymoval has no confidence. Choose another --method" \
+  clean drive --method raymoval --caution 0.5 -o map.pcd
+removed=()
+for caution in 0 0.5 1; do
+  expect 0 "raymoval_plus:offline, caution $caution removed" \
+    clean drive --caution $caution --quiet --labels caution$caution
+  removed[${#removed[@]}]=$(cat caution$caution/*.label | od -An -v -tu4 -w4 | grep -c '^ *251$')
+done
+holds "more caution removes less" test "${removed[0]}" -ge "${removed[1]}" -a "${removed[1]}" -gt "${removed[2]}"
+
+# --edits: the answer that a page holds, without corrections and with one.
+expect 0 "" clean drive --quiet --html reviewed.html --labels reviewed
+edits_of reviewed.html >same.json
+edits_of reviewed.html remove=[[0,0,0]] kept_cell=1073741824 >positive.json
+expect 0 "same.json: 0 removed points kept and 0 kept points removed by hand" \
+  clean drive --edits same.json --quiet --labels same
+holds "without corrections the answer is the method's" diff -r reviewed same
+expect 0 "0 removed points kept and " clean drive --edits positive.json --quiet --labels positive
+holds "a cell of all positive places removes points" test -n "$(diff -rq reviewed positive)"
+expect 0 "IoU 100.000" score drive --truth same.json --predictions same --protocol mos --quiet
+expect 0 "IoU 100.000" score drive --truth same.json --predictions same.json --protocol mos --quiet
+for option in --method --set --caution; do
+  expect 2 "has no effect with --edits" clean drive --edits same.json $option 0.5 -o map.pcd
+done
+expect 2 "the edits are for 12 scans of suburb, but there are 5" \
+  clean drive --edits same.json --frames 0:4 --quiet -o map.pcd
+expect 2 "12 of 12 scans have another pose or other points" \
+  clean drive --edits same.json --drop-ego 5 --quiet -o map.pcd
+expect 2 "is not a file of edits" clean drive --edits drive/sequence.json --quiet -o map.pcd
+expect 2 "missing.json" clean drive --edits missing.json --quiet -o map.pcd
+expect 2 "same.json" clean drive --edits same.json -o same.json --overwrite
+nothing_left "a refusal of edits"
 
 # --range: what is beyond is in no output.
 expect 2 "no point lies within --range 2000:40000" \
@@ -110,7 +146,7 @@ expect 2 "was not written by" clean drive "${online[@]}" --scans drive --overwri
 ln drive/poses.txt all/poses.pcd
 expect 2 "is read as an input" clean drive "${online[@]}" -o all/poses.pcd --overwrite
 expect 2 "not stored in files" clean street "${online[@]}" --scans map_scans
-expect 2 "not a known cloud format" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
+expect 2 "not read or written" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
 nothing_left "a refusal of outputs"
 
 # Tiles hold together what the map holds.

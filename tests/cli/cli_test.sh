@@ -260,6 +260,7 @@ expect 2 "'distance'" score "${short[@]}" --predictions $cell/removals --protoco
 expect 0 "removed" clean street --frames 0:2 --quiet -o clean.pcd
 expect 0 "the oracle's cloud, scored in the same way: PR" score "${short[@]}" --cloud clean.pcd --protocol erasor --protocol dynamicmap
 expect 0 "precision" score "${short[@]}" --cloud clean.pcd --voxel 0.1
+expect 0 "all points, only thinned, scored in the same way: PR" score "${short[@]}" --cloud clean.pcd --voxel 0.2
 # The oracle is no upper limit: without a point, every moving one is gone.
 "$raymoval" clean street --frames 0:30 --method remove-all --quiet -o nothing.bin >/dev/null
 expect 0 "DA above the oracle's, which is not an upper limit" score --sequence street --frames 0:30 --quiet \

@@ -102,10 +102,10 @@ done
 
 # --- running them ---
 export RAYMOVAL_CACHE=$work/cache
-small=(--quiet --sensor vlp16)
 mkdir -p ready/kitti/sequences ready/out
 cd ready || exit 1
-expect 0 "" simulate town -o data/05 --scans 12 "${small[@]}"
+sparse_vlp16 >sparse.json
+expect 0 "" simulate town -o data/05 --scans 12 --sensor sparse.json --quiet
 ln -s ../../data/05 kitti/sequences/05
 ln -s data/05/labels labels
 ln -s "$source_folder/examples" examples
@@ -141,7 +141,9 @@ holds "the page of suites has a suite" grep -q '"sweep"' my_suite.json
 run=(run --sequence data/05 --quiet)
 expect 0 "" "${run[@]}" --method raymoval_plus --method raymoval:online --keep-removals --name 05 --out out/05
 for name in old new; do expect 0 "" "${run[@]}" --method raymoval:online --out out/$name; done
-expect 0 "" clean data/05 -o static.pcd --method raymoval:online --quiet
+expect 0 "" clean data/05 -o static.pcd --method raymoval:online --quiet --html map.html
+edits_of map.html >edits.json
+rm map.html
 cd "$work" || exit 1
 
 # These take long or need what is not here; that they are understood is checked above.
@@ -164,6 +166,8 @@ for page in "${pages[@]}"; do
     [[ $line =~ $not_run ]] && continue
     line=${line//\/data\/kitti/kitti}
     line=${line//--scans 100/--scans 3 --sensor vlp16}
+    line=${line/#clean street/clean street --frames 0:9}
+    line=${line//--sequence street/--sequence street --frames 0:9}
     line=${line//town:scans=60/town:scans=3,sensor=vlp16}
     eval "words=($line)"
     ran=$((ran + 1))

@@ -16,7 +16,8 @@ moved() {
   awk "$3" "$1/poses.txt" >"$2/poses.txt"
 }
 numbers='{ for (i = 1; i <= 12; ++i) printf "%.9f%s", p[i], i < 12 ? " " : "\n" }'
-expect 0 "12 scans" simulate suburb -o scene --scans 12 --sensor vlp16 --quiet
+sparse_vlp16 >sparse.json
+expect 0 "12 scans" simulate suburb -o scene --scans 12 --sensor sparse.json --quiet
 # Poses of a camera become those of the LiDAR: Tr^-1 P Tr.
 moved scene near "BEGIN {
     while ((getline row < \"scene/calib.txt\") > 0) if (row ~ /^Tr:/) split(substr(row, 5), c)

@@ -27,7 +27,8 @@ silent() {
 }
 
 # Poses that end before the scans do.
-expect 0 "9 scans" simulate suburb -o drive --scans 9 --sensor vlp16 --seed 5 --quiet
+sparse_vlp16 >sparse.json
+expect 0 "9 scans" simulate suburb -o drive --scans 9 --sensor sparse.json --seed 5 --quiet
 paste -d' ' drive/times.txt drive/poses.txt | head -7 >drive/early.txt
 early=(drive --poses early.txt)
 lost="early.txt: 2 of 9 scans have no pose: 2 after the last pose. They are left out."

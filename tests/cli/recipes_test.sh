@@ -15,9 +15,7 @@ lines() { awk '/^    raymoval / { print; found = 1; next } found { exit }' "$1";
 # points FILE: those of a .pcd or .ply.
 points() { grep -am1 -oE '^(POINTS|element vertex) [0-9]+' "$1" | grep -oE '[0-9]+$'; }
 
-# Every second column of a VLP-16: what is needed to find a drive's mistakes, in half of the time.
-sed 's/"azimuth_step_deg": 0.2/"azimuth_step_deg": 0.4/' \
-  "$source_folder/datasets/simulation/sensors/vlp16.json" >sparse.json
+sparse_vlp16 >sparse.json
 expect 0 "6 scans" simulate suburb -o drive --scans 6 --sensor sparse.json --seed 5 --quiet
 all=$(($(cat drive/velodyne/*.bin | wc -c) / 16))
 

@@ -43,6 +43,23 @@ TEST_CASE("methods start at zero wherever the world's origin is, to the last bit
   }
 }
 
+TEST_CASE("a spin axis becomes z of the sensor frame, and no point moves in the world") {
+  const Row scans({3, 4, 5});
+  Pose up = Pose::Identity();
+  up.linear() = turn_to_z(Vector3d::UnitX());
+  const LocalFrameSource local(scans, up, Vector3d::UnitY());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Scan before = scans.load(i), after = local.load(i);
+    CHECK(after.T_world_sensor.matrix() == local.pose(i).matrix());
+    CHECK((after.T_world_sensor * after.points[0].cast<double>())
+              .isApprox(up * (before.T_world_sensor * before.points[0].cast<double>())));
+    // y of the old frame is z of the new one.
+    CHECK(after.T_world_sensor.linear().col(2) ==
+          (up * before.T_world_sensor).linear() * Vector3d::UnitY());
+  }
+  CHECK(local.sensor().spin_axis == Vector3d::UnitZ());
+}
+
 TEST_CASE("up becomes z by the shortest turn, exactly where axes are exchanged") {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/angle.h"
+#include "core/scan/local_frame.h"
 #include "core/scan/sensor_model.h"
 
 using namespace raymoval;
@@ -97,6 +98,18 @@ void shuffle(std::vector<Scan>& scans, unsigned seed) {
   for (Scan& scan : scans) std::shuffle(scan.points.begin(), scan.points.end(), random);
 }
 
+/// The scans with their points in another frame.
+std::vector<Scan> turned(std::vector<Scan> scans, const Eigen::Matrix3d& rotation) {
+  for (Scan& scan : scans) turn_sensor_frame(rotation, scan);
+  return scans;
+}
+
+Eigen::Matrix3d random_rotation(std::mt19937& random) {
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+}
+
 /// Bit for bit.
 void check_same(const SensorModel& a, const SensorModel& b) {
   CHECK(a.azimuth_min == b.azimuth_min);
@@ -108,6 +121,7 @@ void check_same(const SensorModel& a, const SensorModel& b) {
   CHECK(a.range_min == b.range_min);
   CHECK(a.range_max == b.range_max);
   CHECK(a.beams == b.beams);
+  CHECK(a.spin_axis == b.spin_axis);
   CHECK(a.basis == b.basis);
 }
 
@@ -280,19 +294,83 @@ TEST_CASE("A scan that was thinned out has the spacing of what is left", "[senso
   CHECK(spacing < 1.5 * std::sqrt(10 * 0.2 * 28.0 / 63));
 }
 
-TEST_CASE("A sensor that turns about another axis gives no absurd steps", "[sensor-estimate]") {
-  Head head = vlp16();
-  std::vector<Scan> scans = scans_of(head);
-  for (Scan& scan : scans) {
-    for (Eigen::Vector3f& point : scan.points) point = {point.z(), point.x(), point.y()};
+TEST_CASE("The spin axis is found in any frame of the points", "[sensor-estimate][slow]") {
+  Head wide = vlp16(), dense, shifted;
+  wide.first = -60.0;
+  wide.width = 120.0;
+  dense.elevations = evenly(-11.0, 11.0, 67);  // Beams are half as far apart as columns.
+  dense.step = 0.7;
+  shifted.elevations = evenly(-22.5, 22.5, 64);  // As an Ouster's, as far apart as columns.
+  shifted.step = 0.7;
+  shifted.shifts = {0.0, 0.25, 0.5, 0.75};
+  std::mt19937 random(7);
+  for (const Head& head : {vlp16(), wide, dense, shifted}) {
+    const std::vector<Scan> upright = scans_of(head);
+    const SensorModel model = estimate_sensor_model(upright);
+    INFO(model.basis);
+    CHECK(model.spin_axis == Eigen::Vector3d::UnitZ());
+    CHECK_THAT(model.basis, !Contains("spin axis"));
+    for (int round = 0; round < 2; ++round) {
+      const Eigen::Matrix3d rotation = random_rotation(random);
+      const SensorModel seen = estimate_sensor_model(turned(upright, rotation));
+      INFO(seen.basis);
+      // Either side of a field of view that is the same on both may be its upper side.
+      const double cosine = std::abs(seen.spin_axis.dot(rotation.col(2)));
+      CHECK(std::acos(std::min(1.0, cosine)) < 0.1 * kDegree);
+      CHECK(seen.beams == Approx(model.beams).margin(2));
+      check_steps(seen, model.azimuth_step / kDegree, model.elevation_step / kDegree);
+    }
   }
-  const SensorModel model = estimate_sensor_model(scans);
-  INFO(model.basis);
-  // Each direction has 0.2 by 2 degrees, a square of 0.63 degrees.
-  for (const double step : {model.azimuth_step, model.elevation_step}) {
-    CHECK(step > 0.15 * kDegree);
-    CHECK(step < 1.3 * kDegree);
+}
+
+TEST_CASE("The coordinate axis that points are turned about is the spin axis, exactly",
+          "[sensor-estimate]") {
+  const std::vector<Scan> upright = scans_of(vlp16());
+  const SensorModel model = estimate_sensor_model(upright);
+  Eigen::Matrix3d z_to_y;
+  z_to_y << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  const SensorModel seen = estimate_sensor_model(turned(upright, z_to_y));
+  CHECK(seen.spin_axis == Eigen::Vector3d::UnitY());
+  CHECK(seen.basis == model.basis + "; spin axis: y");
+  CHECK(seen.beams == model.beams);
+  CHECK(seen.elevation_min == model.elevation_min);
+  CHECK(estimate_spin_axis(turned(upright, z_to_y)) == Eigen::Vector3d::UnitY());
+  // As in a camera's frame. The ground, with more returns than the air, is on the other side.
+  Eigen::Matrix3d z_to_minus_y;
+  z_to_minus_y << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  CHECK(estimate_sensor_model(turned(upright, z_to_minus_y)).basis ==
+        model.basis + "; spin axis: -y");
+}
+
+TEST_CASE("A sensor that is not quite upright keeps z", "[sensor-estimate]") {
+  // A calibration of half a degree is none of a frame; three degrees are.
+  const std::vector<Scan> upright = scans_of(vlp16());
+  const auto tilted = [&](double degrees) {
+    const Eigen::AngleAxisd tilt(degrees * kDegree, Eigen::Vector3d::UnitX());
+    return estimate_sensor_model(turned(upright, tilt.toRotationMatrix())).spin_axis;
+  };
+  CHECK(tilted(0.5) == Eigen::Vector3d::UnitZ());
+  CHECK(std::acos(tilted(3.0).z()) == Approx(3.0 * kDegree).margin(0.1 * kDegree));
+}
+
+TEST_CASE("Scans without beams have no spin axis but z", "[sensor-estimate]") {
+  std::mt19937 random(5);
+  const std::vector<Scan> rosette = rosette_scans();
+  for (int round = 0; round < 3; ++round) {
+    const SensorModel seen = estimate_sensor_model(turned(rosette, random_rotation(random)));
+    CHECK(seen.spin_axis == Eigen::Vector3d::UnitZ());
+    CHECK(seen.beams == 0);
   }
+  std::normal_distribution<float> anywhere(0.0F, 1.0F);
+  std::vector<Scan> noise(5);
+  for (Scan& scan : noise) {
+    for (int i = 0; i < 5000; ++i) {
+      scan.points.emplace_back(anywhere(random), anywhere(random), anywhere(random));
+    }
+  }
+  CHECK(estimate_sensor_model(noise).spin_axis == Eigen::Vector3d::UnitZ());
+  CHECK(estimate_spin_axis(noise) == Eigen::Vector3d::UnitZ());
+  CHECK(estimate_spin_axis({Scan{}, Scan{}}) == Eigen::Vector3d::UnitZ());
 }
 
 TEST_CASE("Scans that are unlike the others do not change the steps", "[sensor-estimate]") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Points of the ego vehicle: they are found, and no method gets them.
+#include <numbers>
 #include <random>
 
 #include "core/error.h"
@@ -135,6 +136,40 @@ TEST_CASE("the ground before a sensor that looks down is no vehicle", "[ego]") {
   const std::shared_ptr<const SimulatedSequence> walk = make_simulated(options);
   const EgoFreeSource scans(walk, parse_ego_region("auto"));
   CHECK(scans.region().kind == EgoRegion::Kind::kNone);
+}
+
+namespace {
+
+/// Scans of a sensor that lies on its side.
+class OnItsSide : public ScanSource {
+ public:
+  explicit OnItsSide(std::shared_ptr<const ScanSource> upright) : upright_(std::move(upright)) {}
+  [[nodiscard]] std::size_t size() const override { return upright_->size(); }
+  [[nodiscard]] Pose pose(std::size_t index) const override {
+    return upright_->pose(index) *
+           Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
+  }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan = upright_->load(index);
+    for (Eigen::Vector3f& point : scan.points) point = {point.x(), point.z(), -point.y()};
+    scan.T_world_sensor = pose(index);
+    return scan;
+  }
+  [[nodiscard]] const SensorModel& sensor() const override { return upright_->sensor(); }
+
+ private:
+  std::shared_ptr<const ScanSource> upright_;
+};
+
+}  // namespace
+
+TEST_CASE("the floor beside a sensor that lies on its side is no vehicle", "[ego]") {
+  SimulationOptions options;
+  options.scene = "walk";
+  options.sensor = "hdl32e";
+  options.scans = 60;
+  const auto walk = std::make_shared<OnItsSide>(make_simulated(options));
+  CHECK(EgoFreeSource(walk, parse_ego_region("auto")).region().kind == EgoRegion::Kind::kNone);
 }
 
 TEST_CASE("a sensor that stands, or a region of everything, is an error", "[ego]") {

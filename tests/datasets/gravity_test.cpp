@@ -111,7 +111,7 @@ TEST_CASE("each axis of the world may be up, exactly", "[gravity]") {
         const Vector3d up = Vector3d::Unit(axis) * sign;
         Pose turn = Pose::Identity();
         turn.linear() = turn_to_z(up).transpose();
-        INFO("up is " << up_text(up));
+        INFO("up is " << axis_text(up));
         CHECK(up_of(LocalFrameSource(upright, turn)) == up);
       }
     }

@@ -26,11 +26,13 @@ struct EditedSequence : ScanSource, LabelSource {
   std::optional<Eigen::Vector3d> up;  ///< What a user says.
   std::vector<std::string> damage, losses;
 
-  explicit EditedSequence(const SimulationOptions& options) {
+  /// Every `step`-th scan of a simulated drive.
+  explicit EditedSequence(const SimulationOptions& options, std::size_t step = 1) {
     const auto simulated = make_simulated(options, 2);
-    for (std::size_t i = 0; i < simulated->size(); ++i) {
+    for (std::size_t i = 0; i < simulated->size(); i += step) {
       scans.push_back(simulated->load(i));
       words.push_back(simulated->labels(scans.back()));
+      scans.back().index = i / step;
     }
     model = simulated->sensor();
     range_m = simulated->range_m();

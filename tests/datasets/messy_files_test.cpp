@@ -97,7 +97,12 @@ TEST_CASE("times of poses are dates, repeated, unsorted, nan, and followed by co
   REQUIRE(notes.size() == 2);
   check_says(notes[0], {"1 of 5 rows hold nan"});
   check_says(notes[1], {"1 of 5 rows have the time of the row before", "averaged"});
+  // Motion capture that lost its target.
+  CHECK(
+      stamped_poses(read(tum_row("1", 1) + "2 0 0 0 0 0 0 0\n" + tum_row("3", 3)), notes).size() ==
+      2);
   CHECK(read("nan nan nan nan nan nan nan nan\n1 2 0 0 0 0 0 1\n").rows.size() == 1);
+  CHECK_FALSE(read("1 0 0 0 0 1 0 0 0 0 1 0\n0 0 0 0 0 0 0 0 0 0 0 0\n").rows.at(1).has_pose());
 }
 
 TEST_CASE("a row of nan leaves its scan without a pose where poses go by row", "[trajectories]") {
@@ -248,6 +253,9 @@ TEST_CASE("formats that are not read are named with a program that converts them
                                                         {"a.laz", "laszip"},
                                                         {"a.pcap", "ouster-cli"},
                                                         {"a.osf", "ouster-cli"},
+                                                        {"a.xyz", "numpy.loadtxt"},
+                                                        {"000001.txt", "numpy.loadtxt"},
+                                                        {"000001.CSV", "numpy.loadtxt"},
                                                         {"a.feather", "pandas"}}) {
     INFO(name);
     const TemporaryFolder folder;
@@ -260,6 +268,30 @@ TEST_CASE("formats that are not read are named with a program that converts them
   const auto map = folder.write("map.las", "LASF");
   check_says(message_of<DataError>([&] { open_sequence(map.string(), {}); }),
              {"map.las: is one cloud", "a file for each scan", "pdal"});
+}
+
+TEST_CASE("dumps of programs are named with what makes a sequence of them", "[files]") {
+  const auto error = [](const TemporaryFolder& folder, const std::vector<std::string>& files) {
+    for (const std::string& file : files) {
+      std::filesystem::create_directories((folder / file).parent_path());
+      folder.write(file, "anything");
+    }
+    return message_of<DataError>([&] { open_sequence(folder.text(), {}); });
+  };
+  const TemporaryFolder hdl, raw, sc;
+  check_says(error(hdl, {"000000/cloud.pcd", "000000/data"}),
+             {"hdl_graph_slam", "poses_of.py hdl-graph-slam " + hdl.text()});
+  check_says(error(raw, {"oxts/data/0.txt", "velodyne_points/data/0.bin"}),
+             {"KITTI raw", "poses_of.py kitti-raw " + raw.text()});
+  check_says(error(sc, {"Scans/0.pcd", "odom_poses.txt", "optimized_poses.txt"}),
+             {"Scans --poses FILE", "odom_poses.txt", "optimized_poses.txt"});
+}
+
+TEST_CASE("endings of files may be in upper case", "[files]") {
+  const TemporaryFolder folder;
+  write_scans(folder, {"0.BIN", "1.Bin"});
+  folder.write("poses.txt", kIdentityRow + kIdentityRow);
+  CHECK(names_of(open_sequence(folder.text(), {})) == std::vector<std::string>{"0", "1"});
 }
 
 TEST_CASE("rows of one time are one pose where poses go by row", "[trajectories]") {

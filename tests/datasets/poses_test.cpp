@@ -92,6 +92,8 @@ TEST_CASE("what is no rotation is named with its line and deviation", "[poses]")
   check_says(pose_error("1 0 0 0 0 inf 0 0 0 0 1 0\n"), {"line 1", "not finite"});
   check_says(pose_error("0 0 0 0 0 0 0 2\n"), {"line 1", "length 2", "quaternion"});
   check_says(pose_error("0 0 0 0 0 0 0 0\n"), {"line 1", "length 0"});
+  check_says(pose_error("0 0 0 0 0 0 0 0.5\n"), {"line 1", "length 0.5"});
+  check_says(pose_error("0 0 0 0 0 0 0 0 0 0 0 0\n"), {"line 1", "rotation"});
   check_says(pose_error("0 nan 0 0 0 0 0 1\n"), {"line 1", "not finite"});
 }
 

@@ -24,12 +24,6 @@ Scan street_scan(std::size_t index) {
   return make_street({}, street_boxes()).scans->load(index);
 }
 
-double worst(const PoseFit& fit) {
-  double most = 0.0;
-  for (const PairDistance& pair : fit.pairs) most = std::max(most, pair.distance_m);
-  return most;
-}
-
 }  // namespace
 
 TEST_CASE("registration finds the motion between two scans from a guess that is off",
@@ -84,38 +78,69 @@ TEST_CASE("surfaces do not depend on the order of points", "[registration]") {
   }
 }
 
-TEST_CASE("poses that fit are told from noise, jumps and climbs", "[registration]") {
-  const PoseFit right =
-      measure_pose_fit(WrongPoses([](std::size_t) { return Eigen::Vector3d::Zero(); }), 2);
-  REQUIRE(right.pairs.size() > 20);
-  CHECK(right.distance_m < 0.001);
-  CHECK(worst(right) < 0.01);
-
-  const PoseFit jump = measure_pose_fit(WrongPoses([](std::size_t i) -> Eigen::Vector3d {
-                                          return {0.0, i < 25 ? 0.0 : 0.4, 0.0};
-                                        }),
-                                        2);
+TEST_CASE("only pairs across a jump of the poses do not fit", "[registration]") {
+  const WrongPoses poses([](std::size_t i) -> Eigen::Vector3d {
+    return {0.0, i < 25 ? 0.0 : 0.4, 0.0};
+  });
+  const PoseFit jump = measure_pose_fit(poses, 1);
+  REQUIRE(jump.pairs.size() > 20);
   CHECK(jump.distance_m < 0.05);
-  CHECK(worst(jump) > 0.1);
+  CHECK(worst_pair(jump).distance_m > 0.1);
   for (const PairDistance& pair : jump.pairs) {
-    if (pair.distance_m > 0.05) CHECK((pair.from < 25 && pair.to >= 25));
+    const bool across = pair.from < 25 && pair.to >= 25;
+    CHECK((across || pair.distance_m < 0.01));
   }
-
-  const PoseFit climb = measure_pose_fit(WrongPoses([](std::size_t i) -> Eigen::Vector3d {
-                                           return {0.0, 0.0, 0.04 * static_cast<double>(i)};
-                                         }),
-                                         2);
-  CHECK(climb.distance_m > 0.05);
-
-  const auto noise = [](std::size_t i) -> Eigen::Vector3d {
-    return {0.0, 0.1 * ((i * 7) % 5) - 0.2, 0.05 * ((i * 3) % 4) - 0.075};
-  };
-  const PoseFit noisy = measure_pose_fit(WrongPoses(noise), 1);
-  CHECK(noisy.distance_m > 0.05);
   // The answer does not depend on the number of threads.
-  const PoseFit again = measure_pose_fit(WrongPoses(noise), 8);
-  REQUIRE(again.pairs.size() == noisy.pairs.size());
-  CHECK(again.distance_m == noisy.distance_m);
+  const PoseFit again = measure_pose_fit(poses, 8);
+  REQUIRE(again.pairs.size() == jump.pairs.size());
+  CHECK(again.distance_m == jump.distance_m);
+}
+
+namespace {
+
+/// The street twice: even scans, then odd scans with an error of the poses in plan.
+class TwoPasses : public ScanSource {
+ public:
+  explicit TwoPasses(const Eigen::Vector3d& error) : error_(error) {}
+  [[nodiscard]] std::size_t size() const override { return street_.scans->size(); }
+  [[nodiscard]] Pose pose(std::size_t index) const override {
+    Pose pose = street_.scans->pose(of(index));
+    if (2 * index >= size()) pose.translation() += error_;
+    return pose;
+  }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan = street_.scans->load(of(index));
+    scan.T_world_sensor = pose(index);
+    return scan;
+  }
+  [[nodiscard]] const SensorModel& sensor() const override { return street_.scans->sensor(); }
+
+ private:
+  [[nodiscard]] std::size_t of(std::size_t index) const {
+    return 2 * index < size() ? 2 * index : 2 * index - size() + 1;
+  }
+  Sequence street_ = make_street({}, street_boxes());
+  Eigen::Vector3d error_;
+};
+
+}  // namespace
+
+TEST_CASE("an error in plan of up to 3 m on a return to a place is found", "[registration]") {
+  CHECK(fits(measure_pose_fit(TwoPasses({0.0, 0.0, 0.0}), 2)));
+  for (const double error : {0.3, 1.0, 2.0, 3.0}) {
+    CAPTURE(error);
+    const PoseFit side = measure_pose_fit(TwoPasses({0.0, error, 0.0}), 2);
+    CHECK(std::any_of(side.pairs.begin(), side.pairs.end(), [](const PairDistance& pair) {
+      return pair.is_return && pair.distance_m > kMostDistanceOfPair;
+    }));
+  }
+}
+
+TEST_CASE("poses that are wrong between two stations do not fit", "[registration]") {
+  const auto between = [](std::size_t i) -> Eigen::Vector3d {
+    return {0.0, i > 1 && i < 7 ? 0.5 : 0.0, 0.0};
+  };
+  CHECK(worst_pair(measure_pose_fit(WrongPoses(between), 2)).distance_m > kMostDistanceOfPair);
 }
 
 TEST_CASE("less than two scans, and scans without points, fit without a pair", "[registration]") {

@@ -20,7 +20,7 @@ TEST_CASE("inspection tells a calibration that cannot be read, and does without 
   folder.write("poses.txt", kIdentityRow + kIdentityRow + kIdentityRow);
   const auto calibration = folder.write("calib.txt", "Tr: " + kIdentityRow);
   const Sequence sequence = open_sequence(folder.text(), {});
-  const inspection::Samples samples(sequence, 1, nullptr);
+  inspection::Samples samples(sequence, 1, nullptr);
   {
     const NothingOpens full;
     const std::string message =

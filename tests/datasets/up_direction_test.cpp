@@ -25,9 +25,9 @@ TEST_CASE("up is an axis or three numbers of any length", "[up]") {
 }
 
 TEST_CASE("up is told as it was meant", "[up]") {
-  CHECK(up_text({0, -1, 0}) == "-y");
-  CHECK(up_text({0, 0, 1}) == "z");
-  CHECK(up_text(Vector3d(0, 0.6, 0.8)) == "0.000,0.600,0.800");
+  CHECK(axis_text({0, -1, 0}) == "-y");
+  CHECK(axis_text({0, 0, 1}) == "z");
+  CHECK(axis_text(Vector3d(0, 0.6, 0.8)) == "0.000,0.600,0.800");
   CHECK(up_line({}).empty());
   CHECK_THAT(up_line({{0, -1, 0}, UpDirection::Source::kEstimated}),
              Contains("up is -y of the world") && Contains("estimated"));

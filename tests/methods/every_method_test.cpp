@@ -23,6 +23,7 @@ std::vector<ConfiguredMethod> all_methods() {
     for (const MethodVariant& variant : entry->variants) {
       if (!variant.is_available) continue;
       methods.push_back(MethodRegistry::built_in().configure(entry->name + ":" + variant.name));
+      toy::coarsen_octomap(methods.back());
       if (entry->name != "peopleremover") continue;
       methods.push_back(methods.back());
       set_parameter(methods.back().configuration, "diff", std::int64_t{1});
@@ -55,14 +56,26 @@ class KeptEvidence : public EvidenceSink {
   std::vector<std::vector<float>> by_scan;
 };
 
+/// A street, of which only the third of the points ahead of the sensor is kept; both movers are
+/// there. hmm_mos removes nothing from these, and gets all points.
+const toy::World& street_for(const ConfiguredMethod& method) {
+  static const toy::World around = toy::street(10), ahead = [] {
+    toy::Scanner scanner;
+    scanner.azimuth_from = -60.0;
+    scanner.azimuth_to = 60.0;
+    return toy::street(10, 7, scanner);
+  }();
+  return method.entry->name == "hmm_mos" ? around : ahead;
+}
+
 }  // namespace
 
 // A method's answer may depend on the world's origin and axes only through its lattice of voxels.
 TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
-  const toy::World world = toy::street(8);
   for (const ConfiguredMethod& method : all_methods()) {
     if (knows_origin(method)) continue;
     INFO(method.full_name());
+    const toy::World& world = street_for(method);
     const MaskStore here = masks_of(*method.make(), world);
     // 64 m, 32 m and 16 m are whole numbers of 0.05, 0.1, 0.2, 0.25, 0.4 and 1 m and of powers of
     // two.
@@ -78,12 +91,12 @@ TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
 TEST_CASE("any number of threads gives the same answer", "[threads][slow]") {
   // As many threads as requested, on any number of processors.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
-  const toy::World world = toy::street(10);
   for (const ConfiguredMethod& method : all_methods()) {
     INFO(method.full_name());
+    const toy::World& world = street_for(method);
     const MaskStore one = masks_of(*method.make(), world, 1);
     CHECK(one.removed_count() > 0);
-    for (const int threads : {3, 8}) {
+    for (const int threads : {2, 8}) {
       INFO(threads << " threads");
       const MaskStore many = masks_of(*method.make(), world, threads);
       CHECK(toy::different_verdicts(one, many, world.size()) == 0);
@@ -95,10 +108,10 @@ TEST_CASE("any number of threads gives the same answer", "[threads][slow]") {
 TEST_CASE("evidence changes no mask, and is the same for any number of threads",
           "[threads][slow]") {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
-  const toy::World world = toy::street(10);
   for (const ConfiguredMethod& method : all_methods()) {
     if (method.entry->confidence.empty()) continue;
     INFO(method.full_name());
+    const toy::World& world = street_for(method);
     const MaskStore unasked = masks_of(*method.make(), world);
     std::vector<std::vector<float>> one;
     for (const int threads : {1, 8}) {
@@ -114,17 +127,6 @@ TEST_CASE("evidence changes no mask, and is the same for any number of threads",
       CHECK(kept.by_scan == one);
     }
     for (std::size_t i = 0; i < world.size(); ++i) CHECK(one[i].size() == world.load(i).size());
-  }
-}
-
-// What the sanitizers see of threads.
-TEST_CASE("a second thread changes nothing on a short street", "[threads][slow]") {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 2);
-  const toy::World world = toy::street(4);
-  for (const ConfiguredMethod& method : all_methods()) {
-    INFO(method.full_name());
-    const MaskStore one = masks_of(*method.make(), world, 1);
-    CHECK(toy::different_verdicts(one, masks_of(*method.make(), world, 2), world.size()) == 0);
   }
 }
 

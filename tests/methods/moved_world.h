@@ -8,6 +8,13 @@
 
 namespace raymoval::toy {
 
+/// Cells of octomap of 0.2 m: smaller ones along all beams take most of a test's time, and
+/// the variants with them have no other rules.
+inline void coarsen_octomap(ConfiguredMethod& method) {
+  if (method.entry->name != "octomap") return;
+  set_parameter(method.configuration, "resolution", 0.2);
+}
+
 /// The scans of another source with the world moved: poses become `motion * pose`, points stay as
 /// they are in the sensor frame.
 class MovedWorld : public ScanSource {

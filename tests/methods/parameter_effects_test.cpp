@@ -139,6 +139,7 @@ ConfiguredMethod configured(const std::string& name) {
     set_parameter(method.configuration, "azimuth_bins", std::int64_t{360});
     set_parameter(method.configuration, "elevation_bins", std::int64_t{44});
   }
+  toy::coarsen_octomap(method);
   if (method.entry->name == "octomap") {  // Neighbours of outliers take most of the time.
     set_parameter(method.configuration, "noise_neighbours", std::int64_t{5});
   }

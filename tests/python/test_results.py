@@ -214,8 +214,6 @@ class Runs(unittest.TestCase):
         self.assertIn("<iframe srcdoc=", page._repr_html_())
         page.save(f"{self.folder}/page.html")
         self.assertEqual(Path(f"{self.folder}/page.html").read_text(), page.html)
-        if not raymoval._raymoval.has_page_view():
-            raise unittest.SkipTest("built without the 3-D view")
         masks = [scan.moving for scan in self.sequence]
         self.assertIn("street, cleaned", raymoval.show(self.sequence, masks, **QUIET).html)
         raised(self, raymoval.UsageError, "the masks are missing", raymoval.show, self.sequence,

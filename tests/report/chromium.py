@@ -140,6 +140,24 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", features=[
             {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
+    def low_contrast(self):
+        """Texts with a contrast below 4.5 to their background (WCAG 2, formula of relative luminance)."""
+        return self.run(r"""(() => {
+          const part = (value) => value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+          const light = (text) => { const [r, g, b] = text.match(/[\d.]+/g).map((value) => part(value / 255));
+                                    return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+          const ground = (node) => { for (; node; node = node.parentElement) {
+            const colour = getComputedStyle(node).backgroundColor;
+            if (/^rgb\(/.test(colour)) return colour; } return 'rgb(255, 255, 255)'; };
+          return [...document.querySelectorAll('body *')].filter((node) => node.checkVisibility()
+              && !node.closest('svg, canvas, .heat') && [...node.childNodes].some(
+                  (child) => child.nodeType === 3 && child.textContent.trim())).flatMap((node) => {
+            const [a, b] = [light(getComputedStyle(node).color), light(ground(node))].sort((x, y) => y - x);
+            const ratio = (a + 0.05) / (b + 0.05);
+            return ratio < 4.5 ? [node.tagName + ' ' + node.textContent.slice(0, 20) + ' ' + ratio] : [];
+          });
+        })()""")
+
     def press(self, key):
         self.call("Input.dispatchKeyEvent", type="keyDown", key=key,
                   text=key if len(key) == 1 else "")

@@ -3,34 +3,17 @@
 what it should. Usage: report_test.py PATH/TO/raymoval. Exit code 77: no Chromium."""
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
 import chromium
-
-checks = failures = 0
-
-
-def check(name, holds, more=""):
-    global checks, failures
-    checks += 1
-    if not holds:
-        failures += 1
-        print(f"FAILED: {name} {more}", flush=True)
-
-
-def program(path, *arguments, code=0):
-    done = subprocess.run([path, *arguments], capture_output=True, text=True)
-    check(" ".join(arguments[:2]) + f" ends with {code}", done.returncode == code,
-          f"(got {done.returncode}: {done.stderr[-500:]})")
-    return done
+from checks import check, finish, program
 
 
 def colours(browser, left=0.0, right=1.0):
     """How often each colour stands in a part of the canvas, as {(r, g, b): count}."""
     counts = browser.run("""(() => {
-      const {width, height, data} = raymovalView.pixels(), counts = {};
+      const {width, height, data} = raymovalView.stage.pixels(), counts = {};
       for (let y = 0; y < height; ++y) {
         for (let x = Math.floor(width * %f); x < Math.floor(width * %f); ++x) {
           const at = 4 * (y * width + x), key = data[at] + ',' + data[at + 1] + ',' + data[at + 2];
@@ -113,6 +96,38 @@ def check_accessible(browser):
         " part.getAttribute('aria-label'))"))
 
 
+def check_looks(browser):
+    """Contrast, and what a phone shows of the first table without scrolling sideways."""
+    for dark in (False, True):
+        browser.set_dark(dark)
+        low = browser.low_contrast()
+        check(f"contrast is at least 4.5 ({'dark' if dark else 'light'})", low == [], low[:5])
+    browser.set_dark(False)
+    browser.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=False)
+    edges = browser.run("""[...document.querySelector('#methods tbody tr').cells].slice(0, 3).map(
+        (cell) => cell.getBoundingClientRect().right)""")
+    check("a phone shows name, F1 and time", max(edges) <= 390, edges)
+    check("a phone does not scroll sideways", browser.run("document.documentElement.scrollWidth <= 390"))
+    browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=900, deviceScaleFactor=1, mobile=False)
+
+
+def check_worst(browser):
+    """The places with most errors are pictures that open in the view."""
+    browser.run("""(() => { const list = document.getElementById('left');
+        list.selectedIndex = [...list.options].findIndex((one) => one.textContent === 'noop:default');
+        list.dispatchEvent(new Event('change')); })()""")
+    browser.wait("document.getElementById('worst-title').textContent === 'Where noop:default errs most'")
+    counts = browser.run("[...document.querySelectorAll('#worst button')].map("
+                         "(button) => Number(button.textContent.split(': ')[1].split(' ')[0].replace(',', '')))")
+    check("places with more errors come first", counts and counts == sorted(counts, reverse=True), counts)
+    check("and hold no more errors than are shown", sum(counts) <= browser.run(
+        "raymovalView.cells[0].kinds.filter((kind) => kind === 1 || kind === 3).length"))
+    browser.run("raymovalView.lookAtAll()")
+    before = browser.run("raymovalView.stage.range")
+    browser.run("document.querySelector('#worst button').click()")
+    check("a click goes there", browser.run("raymovalView.stage.range") < before)
+
+
 def check_points(browser):
     """The street: a car that moves, walls that do not."""
     view = "raymovalView"
@@ -121,7 +136,7 @@ def check_points(browser):
         list.selectedIndex = [...list.options].findIndex((one) => one.textContent === name);
         list.dispatchEvent(new Event('change')); }"""
     browser.run(f"({choose})('left', 'oracle:default')")
-    browser.wait(f"{view}.clouds.length === 1 && {view}.cells[0].head.name === 'oracle:default'")
+    browser.wait(f"{view}.cells.length === 1 && {view}.cells[0].head.name === 'oracle:default'")
     whole = colours(browser)
     check("moving points that were removed are green", bluish_green(whole) > 100, bluish_green(whole))
     check("static points are grey", grey(whole) > 1000, grey(whole))
@@ -132,10 +147,11 @@ def check_points(browser):
         browser.run(f"document.getElementById('kind-{kind}').click()")
     check("and shown again", colours(browser) == whole)
     for by in ("label", "height", "reason", "verdict"):
-        browser.run(f"document.querySelector('input[name=colour][value={by}]').click()")
+        browser.run(f"(() => {{ const list = document.getElementById('colour'); list.value = '{by}';"
+                    " list.dispatchEvent(new Event('change')); })()")
         check(f"coloured by {by}", (colours(browser) == whole) == (by == "verdict"))
     browser.run(f"({choose})('right', 'noop:default')")
-    browser.wait(f"{view}.clouds.length === 2")
+    browser.wait(f"{view}.cells.length === 2")
     browser.run(f"{view}.lookAtAll()")
     left, right = colours(browser, 0, 0.49), colours(browser, 0.51, 1)
     check("the left half is the oracle's", bluish_green(left) > 20 and vermillion(left) == 0,
@@ -143,7 +159,7 @@ def check_points(browser):
     check("the right half is noop's", vermillion(right) > 20 and bluish_green(right) == 0,
           f"{vermillion(right)} {bluish_green(right)}")
     browser.run(f"({choose})('right', 'nothing')")
-    browser.wait(f"{view}.clouds.length === 1")
+    browser.wait(f"{view}.cells.length === 1")
     browser.run(f"{view}.lookAtAll()")
 
 
@@ -166,7 +182,7 @@ def check_scans(browser):
 def check_click(browser):
     """Clicks where a removed point is drawn."""
     place = browser.run("""(() => {
-      const {width, height, data} = raymovalView.pixels();
+      const {width, height, data} = raymovalView.stage.pixels();
       for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) {
         const at = 4 * (y * width + x);
         if (data[at + 1] > 90 && data[at] < 40 && data[at + 2] > 50) {
@@ -182,7 +198,7 @@ def check_click(browser):
         return
     browser.click(*place)
     told = browser.run("document.getElementById('point').textContent")
-    for word in ("scan", "moving-", "voxel of 0.2 m", "removed, rightly"):
+    for word in ("scan", "range", "moving-", "voxel of 0.2 m", "removed, rightly"):
         check(f"a clicked point tells '{word}'", word in told, told)
     browser.run("document.getElementById('canvas').focus()")
     browser.press("Escape")
@@ -200,8 +216,7 @@ def check_pointers(browser):
 
     def state():
         """Camera and target, and the distance between them."""
-        camera, target = browser.run("[raymovalView.stage.camera.position.toArray(),"
-                                     " raymovalView.stage.target.toArray()]")
+        camera, target = browser.run("[raymovalView.stage.eye(), raymovalView.stage.target]")
         return camera, target, math.dist(camera, target)
 
     def near(a, b):
@@ -219,17 +234,11 @@ def check_pointers(browser):
     check("a drag with the right button moves", math.hypot(*step) > 1
           and near([a - b for a, b in zip(moved[0], turned[0])], step), f"{turned} {moved}")
     browser.run("raymovalView.lookAtAll()")
-    under_pointer = """(() => {
-      const {stage} = raymovalView, {camera, target} = stage;
-      camera.updateMatrixWorld();
-      const {x, y} = stage.locate(%f, %f), range = camera.position.distanceTo(target);
-      return camera.position.clone().set(x, y, 0.5).unproject(camera).sub(camera.position)
-          .setLength(range).add(camera.position).toArray();
-    })()""" % (place[0] - left, place[1] - top)
+    under_pointer = "raymovalView.stage.under(%f, %f)" % (place[0] - left, place[1] - top)
     fixed, before = browser.run(under_pointer), state()
     browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=place[0], y=place[1], deltaX=0,
                  deltaY=-300)
-    browser.wait(f"raymovalView.stage.camera.position.x !== {before[0][0]!r}")
+    browser.wait(f"raymovalView.stage.eye()[0] !== {before[0][0]!r}")
     after = state()
     check("the wheel zooms", abs(after[2] / before[2] - 0.95 ** 3) < 1e-6, f"{before} {after}")
     # Browsers round a pointer's place to pixels.
@@ -241,7 +250,7 @@ def check_pointers(browser):
     check("two fingers zoom", abs(pinched[2] / after[2] - 0.5) < 1e-6, f"{after} {pinched}")
     check("between them", math.dist(browser.run(under_pointer), fixed) < 4e-3 * before[2],
           f"{browser.run(under_pointer)} {fixed}")
-    browser.run("raymovalView.forgetPoint(); raymovalView.lookAtAll()")
+    browser.run("raymovalView.tell(-1); raymovalView.lookAtAll()")
 
 
 def check_reasons(browser):
@@ -250,11 +259,9 @@ def check_reasons(browser):
       const view = raymovalView, list = document.getElementById('left');
       list.selectedIndex = [...list.options].findIndex((one) => one.textContent === 'raymoval:offline');
       await view.openCells();
-      const {tags} = view.cells[0];
       for (let i = 0; i < view.data.count; ++i) {
-        if (tags[4 * i + 3] === 1) {
-          view.chosen = i;
-          view.tellChosen();
+        if (view.cells[0].bytes[i] & 1) {
+          view.tell(i);
           return document.getElementById('point').textContent;
         }
       }
@@ -312,12 +319,14 @@ def main():
             check_theme(browser)
             check_accessible(browser)
             open_view(browser)
+            check_looks(browser)
             check_counts(browser, None)
             check_points(browser)
             check_scans(browser)
             check_click(browser)
             check_pointers(browser)
             check_reasons(browser)
+            check_worst(browser)
             browser.open("many/report.html")
             check("30 cells are shown", browser.run(
                 "document.querySelectorAll('#cells tbody tr').length") == 30)
@@ -334,8 +343,7 @@ def main():
             check("no view where none is wanted", browser.run("!document.getElementById('viewer')"))
             check("nothing was logged, thrown or asked of the network", not browser.problems,
                   browser.problems)
-    print(f"report_test.py: {checks - failures} of {checks} checks hold")
-    return 1 if failures else 0
+    return finish("report_test.py")
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
+#include "datasets/simulation/scene/scene_text.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "datasets/simulation/sensor/pose_noise.h"
 #include "tests/datasets/temporary_folder.h"
@@ -198,6 +199,12 @@ TEST_CASE("the cache tells apart whatever changes the bytes", "[slow]") {
   other.tilted_deg = 30.0;
   other.turned_deg = 0.0;
   folders.push_back(folder(other));
+  for (double SimulationOptions::*angle :
+       {&SimulationOptions::roll_deg, &SimulationOptions::pitch_deg, &SimulationOptions::yaw_deg}) {
+    SimulationOptions turned = other;
+    turned.*angle = 30.0;
+    folders.push_back(folder(turned));
+  }
   std::sort(folders.begin(), folders.end());
   CHECK(std::unique(folders.begin(), folders.end()) == folders.end());
 }
@@ -282,6 +289,43 @@ TEST_CASE("a world with other axes shows the sensor the same") {
         0.05);
   options.tilted_deg = 400.0;
   CHECK_THROWS_AS(make_simulated(options), UsageError);
+}
+
+TEST_CASE("a sensor is turned on its mount, and the world stays") {
+  SimulationOptions options = small_town(3);
+  options.pose_noise = 0.0;
+  const Pose usual = make_simulated(options)->pose(2);
+  struct Mount {
+    std::string text;
+    Eigen::Vector3d x, z;  ///< Axes of the sensor in the vehicle's frame.
+  };
+  const std::vector<Mount> mounts = {{"roll=90", {1, 0, 0}, {0, -1, 0}},
+                                     {"roll=180", {1, 0, 0}, {0, 0, -1}},
+                                     {"pitch=90", {0, 0, -1}, {1, 0, 0}},
+                                     {"yaw=90", {0, 1, 0}, {0, 0, 1}},
+                                     // About x, then y, then z of the vehicle.
+                                     {"roll=90,yaw=90", {0, 1, 0}, {1, 0, 0}}};
+  for (const auto& [text, x, z] : mounts) {
+    INFO(text);
+    const SimulationOptions turned =
+        parse_scene("town:scans=3,pose_noise=0,sensor=" + options.sensor + "," + text);
+    const auto sequence = make_simulated(turned);
+    const Scan scan = sequence->load(2);
+    CHECK((scan.T_world_sensor.translation() - usual.translation()).norm() < 1e-12);
+    const Eigen::Matrix3d turn = usual.linear().transpose() * scan.T_world_sensor.linear();
+    CHECK((turn.col(0) - x).norm() < 1e-12);
+    CHECK((turn.col(2) - z).norm() < 1e-12);
+    // The sensor is 1.73 m above a road that rises and falls by less than half a metre here.
+    const std::vector<std::uint32_t> labels = sequence->labels(scan);
+    std::size_t road = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (labels[i] != simulated::kLabelRoad || scan.points[i].norm() > 15.0F) continue;
+      ++road;
+      CHECK((scan.T_world_sensor * scan.points[i].cast<double>()).z() == Approx(-1.73).margin(0.5));
+    }
+    CHECK(road > 200);
+  }
+  CHECK_THROWS_AS(parse_scene("town:roll=361"), UsageError);
 }
 
 TEST_CASE("a sequence longer than its route is refused, one on a closed route is not", "[slow]") {

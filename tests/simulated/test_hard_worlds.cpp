@@ -156,6 +156,54 @@ TEST_CASE("a slope lifts land, roads and those who drive on them") {
   CHECK(std::atan2(forward.z(), forward.x()) == Approx(std::atan(0.5)));
 }
 
+TEST_CASE("a lift raises a vehicle over a ramp to a storey") {
+  const WorldFile file =
+      world_file(R"(, "movers": [{"kind": "car", "road": "road", "lift": [[100, 0], [120, 5]]}])");
+  const Ground ground(file.terrain, file.roads, 1);
+  const Track track(file.movers[0].route, ground);
+  const auto height = [&](double s) { return track.frame(s, 0.0, 2.0, 1.5).translation().z(); };
+  CHECK(height(90.0) == Approx(height(0.0)).margin(1e-9));
+  CHECK(height(110.0) - height(0.0) == Approx(2.5));
+  CHECK(height(130.0) - height(0.0) == Approx(5.0));
+  const Vector3d forward = track.frame(110.0, 0.0, 2.0, 1.5).linear().col(0);
+  CHECK(std::atan2(forward.z(), forward.x()) == Approx(std::atan(0.25)));
+}
+
+TEST_CASE("the garage has cars on both storeys, and the sensor climbs to the upper one") {
+  SimulationOptions options;
+  options.scene = "garage";
+  options.sensor = "vlp16";
+  options.pose_noise = 0.0;
+  const auto garage = make_simulated(options, 2);
+  const std::size_t last = garage->size() - 1;
+  const double low = garage->pose(0).translation().z(), high = garage->pose(last).translation().z();
+  CHECK(high - low == Approx(3.0).margin(0.05));
+  for (const std::size_t index : {std::size_t{0}, last}) {
+    // A slab is between the storeys: in view are cars on the floor of the sensor.
+    const Scan scan = garage->load(index);
+    const std::vector<std::uint32_t> labels = garage->labels(scan);
+    std::size_t cars = 0, near = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if ((labels[i] & 0xFFFFU) != kLabelCar) continue;
+      const double height = (scan.T_world_sensor * scan.points[i].cast<double>()).z() -
+                            scan.T_world_sensor.translation().z() + 1.73;
+      ++cars;
+      near += height > -0.1 && height < 1.8 ? 1 : 0;
+    }
+    CHECK(cars > 200);
+    CHECK(near > 0.9 * static_cast<double>(cars));
+  }
+}
+
+TEST_CASE("a train is twelve cars that follow the rails") {
+  Random random(1, Purpose::kMover, 1);
+  const Body train = make_body("train", random);
+  CHECK(train.parts.size() == 12);
+  CHECK(train.length_m == Approx(117.2));
+  CHECK(train.parts.front().along_m == Approx(-53.9));
+  CHECK(train.parts.back().along_m == Approx(53.9));
+}
+
 TEST_CASE("a sensor in the hand sways within its bounds about the way") {
   const WorldFile file = world_file("");
   EgoSpec spec = file.ego;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "benchmark/clean/rows/map_rows.h"
@@ -17,6 +18,8 @@ struct CleanedScan {
   const Mask& mask;
   const ScanRows& rows;
   const PointRecords* stored;  ///< The records of the scan; null if the sequence has none.
+  /// The confidence of each point in steps (`kConfidenceSteps`); empty if there is none.
+  std::string_view confidence = {};
 };
 
 /// An output of `raymoval clean`. The constructor creates its file or folder under a temporary

@@ -119,7 +119,10 @@ ScanFolderPlan plan_scan_folder(const Sequence& sequence) {
   }
   plan.copies = side_files(sequence, plan.root);
   const std::size_t stored = list_files(plan.root / plan.scans, cloud_extensions()).size();
-  plan.own_poses = sequence.layout == "files" && stored != source->size();
+  plan.own_poses =
+      !sequence.made_poses.empty() || (sequence.layout == "files" && stored != source->size());
+  // Beside their poses, scans of any layout are a plain folder of scans.
+  if (!sequence.made_poses.empty()) plan.scans.clear();
   return plan;
 }
 

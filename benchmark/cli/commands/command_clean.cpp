@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/method_run.h"
+#include "benchmark/result/removals/edits.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/suite/amounts.h"
 #include "core/files/file_writer.h"
@@ -28,13 +30,14 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labelled, labels, scans, page, picture;
-  std::string voxel, tiles, tile_format, intensity_scale;
-  std::string method = "raymoval_plus:offline";
+  std::string voxel, tiles, tile_format, intensity_scale, caution, edits;
+  std::string method;
   std::vector<std::string> settings;
   SequenceFlags reading;
   bool confidence = false;
   bool overwrite = false;
   bool force = false;
+  PosesFlag poses;
   ProcessFlags process;
   WorkFlags work;
 };
@@ -63,26 +66,73 @@ struct CleaningFacts {
   RangeShares shares = {};
   InspectionReport report = {};
   double seconds = 0.0;
+  std::string corrections = {};  ///< A sentence on the edits; empty without --edits.
 };
+
+constexpr const char* kDefaultMethod = "raymoval_plus:offline";
 
 ConfiguredMethod configured(const CleanFlags& flags) {
   Suite suite;
-  add_method(suite, flags.method, "", program_methods());
+  const std::string& name = flags.method.empty() ? kDefaultMethod : flags.method;
+  add_method(suite, name, "", program_methods());
   std::vector<Setting> settings;
   for (const std::string& text : flags.settings) settings.push_back(parse_setting(text));
   apply_settings(suite, settings);
   warn_of_settings_without_effect(suite);
   ConfiguredMethod method = suite.methods.front().method;
-  if (flags.confidence && method.entry->confidence.empty()) {
+  const char* needs = flags.confidence ? "--confidence" : "--caution";
+  if ((flags.confidence || !flags.caution.empty()) && method.entry->confidence.empty()) {
     std::vector<std::string> names;
     for (const auto& entry : program_methods().entries()) {
       if (!entry->confidence.empty()) names.push_back(entry->name);
     }
-    throw UsageError("--confidence: " + method.entry->name +
+    throw UsageError(std::string(needs) + ": " + method.entry->name +
                      " has no confidence. Choose another --method (" + join(names) +
                      "), or leave it out.");
   }
   return method;
+}
+
+/// Edits hold the answer of a method, so no method runs. @throws UsageError
+void check_edits(const CleanFlags& flags) {
+  if (flags.edits.empty()) return;
+  const std::pair<const char*, bool> others[] = {{"--method", !flags.method.empty()},
+                                                 {"--set", !flags.settings.empty()},
+                                                 {"--caution", !flags.caution.empty()},
+                                                 {"--confidence", flags.confidence}};
+  for (const auto& [option, given] : others) {
+    if (!given) continue;
+    throw UsageError(std::string(option) +
+                     " has no effect with --edits, which holds the answer of the method that was "
+                     "reviewed. Leave one of them out.");
+  }
+}
+
+/// The number of --caution in confidence steps. @throws UsageError
+int caution_steps(const std::string& text) {
+  const auto caution = parse_number<double>(text);
+  if (!caution || !(*caution >= 0.0 && *caution <= 1.0)) {
+    throw UsageError("--caution " + text +
+                     ": expected a number from 0 (remove whatever may move) "
+                     "to 1 (remove only what is certain).");
+  }
+  return static_cast<int>(std::ceil(*caution * kConfidenceSteps - 1e-9));
+}
+
+/// Masks of the points with at least this confidence. Points with the method's lowest confidence,
+/// for which it has no evidence, are never removed.
+MaskStore cautious_masks(const MethodAnswer& answer, const ConfiguredMethod& method, int steps) {
+  const float lowest = method.entry->confidence.curve.front().confidence;
+  const int least = std::max<int>(steps, confidence_steps(lowest) + 1);
+  MaskStore masks(answer.masks.size());
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    Mask mask;
+    for (const char byte : answer.confidence.steps.get(i)) {
+      mask.push_back(static_cast<std::uint8_t>(byte) >= least ? 1 : 0);
+    }
+    masks.set(i, mask);
+  }
+  return masks;
 }
 
 /// The points that the method removes, in unnamed files beside the first output.
@@ -91,11 +141,37 @@ MethodAnswer find_removals(const CleanFlags& flags, const ConfiguredMethod& meth
   const MethodRequest request{method.full_name(), method};
   MethodTask task{&sequence, &request};
   task.options.threads = flags.work.thread_count();
-  task.options.with_confidence = flags.confidence;
+  task.options.with_confidence = flags.confidence || !flags.caution.empty() ||
+                                 (!flags.page.empty() && !method.entry->confidence.empty());
   task.progress = &progress;
   task.cancel = &interrupt_flag();
   task.spool_beside = paths.all().front().path;
-  return run_remover(*make_remover(method, sequence), task);
+  MethodAnswer answer = run_remover(*make_remover(method, sequence), task);
+  if (!flags.caution.empty()) {
+    answer.masks = cautious_masks(answer, method, caution_steps(flags.caution));
+  }
+  return answer;
+}
+
+/// The removals of a reviewed answer.
+MethodAnswer edited_removals(const CleanFlags& flags, const Edits& edits, const ScanSource& scans,
+                             CleaningFacts& facts, Progress& progress) {
+  progress.begin("applying the edits", scans.size());
+  EditedMasks edited = apply_edits(edits, scans, flags.edits, flags.force, [&progress] {
+    progress.advance();
+    if (interrupt_flag()) throw Cancelled();
+  });
+  progress.end();
+  if (edited.changed_scans > 0) {
+    print_warning("continuing because of --force, although " +
+                  counted_text(edited.changed_scans, "scan") + " changed since the review.");
+  }
+  facts.corrections = flags.edits + ": " + counted_text(edited.kept, "removed point") +
+                      " kept and " + counted_text(edited.removed, "kept point") +
+                      " removed by hand.\n";
+  MethodAnswer answer;
+  answer.masks = std::move(edited.masks);
+  return answer;
 }
 
 void write_outputs(const ScanSource& scans, const MethodAnswer& answer, CleaningFacts& facts,
@@ -140,6 +216,9 @@ CleanPaths checked_paths(const CleanFlags& flags) {
     throw UsageError("-o FILE is missing: name the cleaned map's file, or another output.");
   }
   check_paths(paths);
+  OutputFlag poses = flags.poses.file;
+  poses.overwrite = flags.overwrite;
+  poses.check();
   return paths;
 }
 
@@ -155,6 +234,7 @@ CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method)
     writing.intensity_scale = parse_positive("--intensity-scale", flags.intensity_scale);
   }
   writing.method = method.full_name();
+  if (!flags.caution.empty()) writing.method += ", caution " + flags.caution;
   writing.confidence = flags.confidence;
   return writing;
 }
@@ -167,8 +247,11 @@ Sequence opened(const CleanFlags& flags, const CleanPaths& paths, const Configur
     throw DataError("sequence '" + sequence.name + "' has no scan in the chosen frames (" +
                     sequence.frames + ").");
   }
-  check_apart_from(sequence, paths, flags.reading.files());
-  if (method.entry->needs_truth && !sequence.labels) {
+  std::vector<std::filesystem::path> inputs = flags.reading.files();
+  if (!flags.edits.empty()) inputs.emplace_back(flags.edits);
+  check_apart_from(sequence, paths, inputs);
+  flags.poses.write(sequence);
+  if (flags.edits.empty() && method.entry->needs_truth && !sequence.labels) {
     throw UsageError("sequence '" + sequence.name + "' has no labels, and " + method.entry->name +
                      " needs them; choose another --method.");
   }
@@ -210,17 +293,17 @@ std::string outputs_summary(const CleanPaths& paths, const CleanOutputs& outputs
 }
 
 /// The lines of the summary.
-std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& method,
+std::string cleaning_summary(const CleanFlags& flags, const std::string& method,
                              const Sequence& sequence, const MaskStore& masks,
                              const CleaningFacts& facts, const CleanOutputs& outputs) {
   const CleanPaths& paths = facts.paths;
-  std::string text = method.full_name() + " removed " + grouped_text(masks.removed_count()) +
-                     " of " + counted_text(masks.point_count(), "point") + " in " +
+  std::string text = method + " removed " + grouped_text(masks.removed_count()) + " of " +
+                     counted_text(masks.point_count(), "point") + " in " +
                      counted_text(sequence.scans->size(), "scan");
   if (const auto points = outputs.map_points()) {
     text += "; " + paths.first_map().string() + " has " + counted_text(*points, "point");
   }
-  text += ".\n" + facts.shares.table();
+  text += ".\n" + facts.corrections + facts.shares.table();
   if (facts.range.kept) {
     text += counted_text(facts.range.left_out, "point") + " beyond --range " +
             flags.reading.text("range") + " are in no output.\n";
@@ -233,7 +316,7 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
   text += outputs_summary(paths, outputs);
   text += "It took " + fixed_text(facts.seconds, 1) + " s.\nIf the map does not look right:\n";
   for (const std::string& line :
-       remedies(masks.removed_count(), masks.point_count(), flags.path, method.full_name(),
+       remedies(masks.removed_count(), masks.point_count(), flags.path, method,
                 facts.report.findings, !paths.page.empty() || !paths.picture.empty())) {
     text += "  - " + line + '\n';
   }
@@ -243,7 +326,14 @@ std::string cleaning_summary(const CleanFlags& flags, const ConfiguredMethod& me
 ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const ConfiguredMethod method = configured(flags);
-  const CleanWriting writing = writing_of(flags, method);
+  CleanWriting writing = writing_of(flags, method);
+  std::optional<Edits> edits;
+  if (!flags.edits.empty()) {
+    edits = read_edits(flags.edits);
+    writing.method = edits->method;
+    const std::string mark = ", corrected";
+    if (!writing.method.ends_with(mark)) writing.method += mark;
+  }
   const Sequence sequence = opened(flags, paths, method, progress);
   const std::string turned = up_line(sequence.up());
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
@@ -254,24 +344,28 @@ ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Prog
   }
   facts.report = check_data(sequence, flags.path, flags.force,
                             {flags.work.thread_count(), &progress, &interrupt_flag()});
-  progress.set_context(method.full_name() + " on " + sequence.name);
+  progress.set_context(writing.method + " on " + sequence.name);
   // A scan that changes between the method's run and the writing of the map is an error.
   const WatchedSequence data = watched(sequence);
   CleanOutputs outputs(paths, writing, data.sequence, progress, interrupt_flag());
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
-  const MethodAnswer answer = find_removals(flags, method, data.sequence, paths, progress);
+  const MethodAnswer answer =
+      edits ? edited_removals(flags, *edits, *data.sequence.scans, facts, progress)
+            : find_removals(flags, method, data.sequence, paths, progress);
   const MaskStore& masks = answer.masks;
   write_outputs(*data.sequence.scans, answer, facts, outputs, progress);
   facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!is_control(method.entry->name)) {
     check_removed(masks.removed_count(), masks.point_count(), flags.path);
   }
-  print(cleaning_summary(flags, method, sequence, masks, facts, outputs));
+  print(cleaning_summary(flags, writing.method, sequence, masks, facts, outputs));
   return ExitCode::kDone;
 }
 
 ExitCode clean(const CleanFlags& flags) {
   const CleanPaths paths = checked_paths(flags);
+  check_edits(flags);
+  if (!flags.caution.empty()) caution_steps(flags.caution);
   const double limit = flags.process.memory_limit_mib();
   if (!flags.process.in_process) {
     return clean_in_child(ProcessFlags::child_arguments("clean"), paths, limit, interrupt_flag());
@@ -317,8 +411,9 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
       "Factor for real intensities in LAS files, which show whole numbers up to 65535, such as "
       "65535 for intensities from 0 to 1 (default: 1); the exact values are in another field");
   options.add("--html", "FILE", flags.page,
-              "Also write a page with a 3-D view of kept and removed points (.html)");
+              "Also write a page in which you can look at the map and correct it (.html)");
   options.add("--picture", "FILE", flags.picture, "Also write the map from above (.png)");
+  flags.poses.add_to(options, false);
   options.add("--voxel", "METRES", flags.voxel,
               "Write one point per voxel of this size: the mean position and intensity, and the "
               "other fields of the point nearest to the centre of the voxel");
@@ -329,6 +424,13 @@ void add_clean_work(CommandOptions& options, CleanFlags& flags) {
   options.add("--method", "NAME", flags.method,
               "The method (default: raymoval_plus:offline, the most accurate)");
   options.add("--set", "SETTING", flags.settings, "A parameter: METHOD.key=value");
+  options.add(
+      "--caution", "SHARE", flags.caution,
+      "Remove the points whose confidence is at least this, from 0 (whatever may move) to 1 "
+      "(only what is certain), instead of those that the method chooses");
+  options.add("--edits", "FILE", flags.edits,
+              "Instead of a method's answer, write the corrected one that the page of --html "
+              "exported");
   flags.reading.add_to(options);
   options.set_sentence("--range",
                        "Written distance from the sensor in metres. Points outside it are in no "
@@ -355,7 +457,9 @@ Command add_clean_command(CommandParser& program) {
       "raymoval:online\n"
       "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
       "  raymoval clean data/05 --scans cleaned --html map.html --picture map.png\n"
+      "  raymoval clean data/05 --edits edits.json -o static.pcd\n"
       "  raymoval clean data/05 -o tiles --tiles 100\n"
+      "  raymoval clean scans/ --poses estimate -o static.pcd --write-poses poses.txt\n"
       "The data is first checked as by `raymoval inspect`. Mistakes that make the map wrong are "
       "refused\n"
       "(see `raymoval inspect --list`) unless --force is given. Points on the ego vehicle "

@@ -43,6 +43,7 @@ struct InspectFlags {
   std::string path;
   SequenceFlags reading;
   bool json = false, list = false;
+  PosesFlag poses;
   ProcessFlags process;
   WorkFlags work;
 };
@@ -110,13 +111,15 @@ ExitCode inspect_command(const InspectFlags& flags) {
     throw UsageError("PATH is missing: name a sequence folder, ROOT:05, or a scene.");
   }
   check_not_both(flags.path);
+  flags.poses.file.check();
   const double limit = flags.process.memory_limit_mib();
   if (!flags.process.in_process) return inspect_in_child(limit);
   if (is_family_head()) end_family_with_parent();
   Progress progress(flags.work.style());
   const InspectionReport report =
       inspect_path(flags.path, flags.reading.options(),
-                   {flags.work.thread_count(), &progress, &interrupt_flag()});
+                   {flags.work.thread_count(), &progress, &interrupt_flag()},
+                   [&](const Sequence& sequence) { flags.poses.write(sequence); });
   print(flags.json ? json_text(to_json(report)) : report_text(report));
   return report.has_findings() ? ExitCode::kWorse : ExitCode::kDone;
 }
@@ -131,6 +134,7 @@ Command add_inspect_command(CommandParser& program) {
   flags->reading.add_to(options);
   options.add_flag("--json", flags->json, "Print the findings and the measured numbers as JSON");
   options.add_flag("--list", flags->list, "List the checks, and the remedy for each finding");
+  flags->poses.add_to(options, true);
   flags->process.add_to(options);
   flags->work.add_to(options);
   options.set_footer(
@@ -146,6 +150,7 @@ Command add_inspect_command(CommandParser& program) {
       "  raymoval inspect data/05\n"
       "  raymoval inspect KITTI:kitti-05 --json\n"
       "  raymoval inspect scans/ --poses odometry.txt\n"
+      "  raymoval inspect scans/ --poses refine:odometry.txt --write-poses refined.txt\n"
       "  raymoval inspect --list");
   return {options.name(), [flags] { return inspect_command(*flags); }};
 }

@@ -3,7 +3,6 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/report/page.h"
-#include "benchmark/report/page_files.h"
 #include "benchmark/result/checks/result_sets.h"
 #include "benchmark/run/folder/kept_run.h"
 #include "benchmark/tables/published_columns.h"
@@ -26,7 +25,6 @@ struct ReportFlags {
 /// Whether the page gets a 3-D view.
 /// @throws UsageError if an option of the 3-D view is given and the page has none
 bool with_points(const ReportFlags& flags) {
-  const bool built_in = !page_file("view.js").empty();
   const std::string given = !flags.data.empty()     ? "--data " + flags.data
                             : !flags.points.empty() ? "--points " + flags.points
                             : flags.simulate        ? "--simulate"
@@ -35,12 +33,7 @@ bool with_points(const ReportFlags& flags) {
     throw UsageError(given +
                      ": is for the 3-D view, which --no-points leaves out. Drop one of them.");
   }
-  if (!given.empty() && !built_in) {
-    throw UsageError(given +
-                     ": is for the 3-D view, which this program was built without. Drop it, or "
-                     "build with -DRAYMOVAL_REPORT_3D=ON.");
-  }
-  return built_in && !flags.no_points;
+  return !flags.no_points;
 }
 
 /// The papers' rows. If they are not shipped, the report is made without them.

@@ -11,6 +11,7 @@
 #include "benchmark/clean/cleaned_cloud.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/result/cell.h"
+#include "benchmark/result/removals/edits.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "benchmark/result/result_fields.h"
 #include "benchmark/run/scored_sequence.h"
@@ -39,6 +40,8 @@ struct ScoredProtocol {
   ProtocolResult result;
   /// The result of the oracle's cloud. No value if label files were scored.
   std::optional<ProtocolResult> oracle = std::nullopt;
+  /// The result of all points, thinned as the cloud. No value if the cloud was not thinned.
+  std::optional<ProtocolResult> thinned = std::nullopt;
 };
 
 /// The content of `raymoval score`.
@@ -54,6 +57,7 @@ static void describe(RecordWriter& writer, const ScoredProtocol& scored) {
   describe(writer, scored.protocol);
   describe(writer, scored.result);
   if (scored.oracle) writer.json["oracle"] = to_json(*scored.oracle)["rates"];
+  if (scored.thinned) writer.json["thinned"] = to_json(*scored.thinned)["rates"];
 }
 
 static void describe(RecordWriter& writer, const CloudRecord& cloud) {
@@ -113,8 +117,9 @@ std::string cloud_text(const CloudRecord& cloud) {
   return text;
 }
 
-std::string oracle_text(const ProtocolResult& result) {
-  std::string text = "  the oracle's cloud, scored in the same way:";
+/// "  the oracle's cloud, scored in the same way: PR 99.422 RR 99.131".
+std::string rates_line(const std::string& cloud, const ProtocolResult& result) {
+  std::string text = "  " + cloud + ", scored in the same way:";
   for (const Rate& rate : result.rates) {
     text += " " + rate.name + " " + (rate.value ? rate_text(rate.name, *rate.value) : "n/a");
   }
@@ -143,8 +148,11 @@ std::string score_text(const ScoreRecord& record) {
   for (const ScoredProtocol& scored : record.protocols) {
     text += result_text(scored.protocol.name, scored.result);
     if (!scored.oracle) continue;
-    text += oracle_text(*scored.oracle) + above_oracle_text(scored.result, *scored.oracle);
+    text += rates_line("the oracle's cloud", *scored.oracle);
+    if (scored.thinned) text += rates_line("all points, only thinned", *scored.thinned);
+    text += above_oracle_text(scored.result, *scored.oracle);
   }
+  if (record.columns.values.empty()) return text;
   return text + columns_text(record.columns.values);
 }
 
@@ -161,7 +169,7 @@ std::string score_json(const ScoreRecord& record) {
 }
 
 struct ScoreFlags {
-  std::string sequence, truth_map, predictions, cloud, voxel;
+  std::string sequence, truth_map, truth, predictions, cloud, voxel;
   OutputFlag json;
   std::vector<std::string> protocols, settings;
   SequenceFlags reading;
@@ -187,20 +195,47 @@ void warn_of_labels(const LabelIds& found, const std::string& folder) {
                 ". If some are to be removed, write 251 for those and 9 for the others.");
 }
 
+/// Whether `--predictions` names a file of edits.
+bool is_edits(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".json" && is_file(path);
+}
+
+/// The corrected masks of a file of edits.
+MaskStore edited_masks(const std::string& file, const ScanSource& scans, Progress& progress) {
+  const Edits edits = read_edits(file);
+  progress.begin("applying " + file, scans.size());
+  EditedMasks edited = apply_edits(edits, scans, file, false, [&progress] {
+    progress.advance();
+    if (interrupt_flag()) throw Cancelled();
+  });
+  progress.end();
+  return std::move(edited.masks);
+}
+
+/// Makes a reviewed answer the labels of `sequence`: removed points move.
+void set_truth(Sequence& sequence, const std::string& file, Progress& progress) {
+  sequence.labels = labels_of_masks(edited_masks(file, *sequence.scans, progress));
+  sequence.label_rule = {
+      "reviewed", {kRemovedLabel}, {}, {{kKeptLabel, "kept"}, {kRemovedLabel, "removed"}}};
+}
+
 void score_predictions(ScoredSequence& scored, const std::string& folder, Progress& progress,
                        ScoreRecord& record) {
   const ScanSource& scans = *scored.sequence().scans;
-  progress.begin("reading predictions", scans.size());
   const std::atomic<bool>& cancelled = interrupt_flag();
-  const auto after_scan = [&] {
-    progress.advance();
-    if (cancelled) throw Cancelled();
-  };
-  const Predictions read =
-      read_predictions(folder, scans, scored.sequence().label_rule, after_scan);
-  progress.end();
+  Predictions read;
+  if (is_edits(folder)) {
+    read.masks = edited_masks(folder, scans, progress);
+  } else {
+    progress.begin("reading predictions", scans.size());
+    read = read_predictions(folder, scans, scored.sequence().label_rule, [&] {
+      progress.advance();
+      if (cancelled) throw Cancelled();
+    });
+    progress.end();
+  }
   if (!read.note.empty()) progress.say(folder + ": " + read.note);
-  if (read.masks.removed_count() == 0) warn_of_labels(read.found.ids, folder);
+  if (read.masks.removed_count() == 0 && !is_edits(folder)) warn_of_labels(read.found.ids, folder);
   SequenceScores scores = scored.score(read.masks, &cancelled);
   const std::vector<ProtocolRecord> protocols = protocol_records(scored);
   for (std::size_t i = 0; i < protocols.size(); ++i) {
@@ -223,16 +258,27 @@ void score_cloud(ScoredSequence& scored, const std::string& file, double voxel_m
                  Progress& progress, ScoreRecord& record) {
   const CleanedCloud cloud = read_cleaned_cloud(file, lattice_origin(*scored.sequence().scans));
   record.cloud = {cloud.stored, cloud.non_finite, voxel_m, cloud.warnings()};
-  std::vector<ProtocolResult> oracle;
+  std::vector<ProtocolResult> oracle, thinned;
   {
     const CleanedCloud best = oracle_cloud(scored.sequence(), voxel_m, &progress);
+    if (voxel_m == 0.0 && 2 * cloud.points.size() < best.points.size()) {
+      record.cloud->warnings.push_back("the cloud has less than half of the " +
+                                       grouped_text(best.points.size()) +
+                                       " static points. If it was thinned, give the voxel size "
+                                       "(--voxel), and the score says what that costs");
+    }
     oracle = score_cloud(scored, CloudEstimate(best.points));
+  }
+  if (voxel_m > 0.0) {
+    const CleanedCloud whole = whole_cloud(scored.sequence(), voxel_m, &progress);
+    thinned = score_cloud(scored, CloudEstimate(whole.points));
   }
   const CloudEstimate estimate(cloud.points);
   const std::vector<ProtocolResult> results = score_cloud(scored, estimate);
   for (const ProtocolRecord& protocol : protocol_records(scored)) {
     const std::size_t i = record.protocols.size();
     record.protocols.push_back({protocol, results[i], oracle[i]});
+    if (voxel_m > 0.0) record.protocols.back().thinned = thinned[i];
   }
   // A map does not record the sensor position of its points.
   const bool is_map = scored.sequence().layout == kMapLayout;
@@ -262,6 +308,11 @@ void check_flags(const ScoreFlags& flags) {
     throw UsageError(
         "--predictions DIR is missing: the folder with a label file for each scan (or a map with "
         "--cloud FILE).");
+  }
+  if (!flags.truth.empty() && flags.sequence.empty()) {
+    throw UsageError(
+        "--truth FILE needs the sequence that was reviewed: `raymoval score PATH --truth "
+        "FILE`.");
   }
   if (!flags.predictions.empty() && !flags.cloud.empty()) {
     throw UsageError("--predictions and --cloud exclude each other; score them one by one.");
@@ -294,7 +345,9 @@ void check_json_is_no_input(const ScoreFlags& flags, const std::string& predicti
   std::vector<std::filesystem::path> inputs = files_of(sequence);
   for (const std::filesystem::path& file : flags.reading.files()) inputs.push_back(file);
   if (!flags.cloud.empty()) inputs.emplace_back(flags.cloud);
-  if (!flags.truth_map.empty()) inputs.emplace_back(flags.truth_map);
+  for (const std::string& file : {flags.truth_map, flags.truth, flags.predictions}) {
+    if (is_file(file)) inputs.emplace_back(file);
+  }
   if (is_folder(predictions)) {
     for (const std::filesystem::path& file : entries_of(predictions)) inputs.push_back(file);
   }
@@ -313,8 +366,11 @@ ExitCode score(const ScoreFlags& flags) {
           : open_truth_map(flags.truth_map, options);
   report_opening(sequence, progress);
   const std::string predictions =
-      flags.predictions.empty() ? "" : prediction_folder(flags.predictions, sequence.name).string();
+      flags.predictions.empty() || is_edits(flags.predictions)
+          ? flags.predictions
+          : prediction_folder(flags.predictions, sequence.name).string();
   check_json_is_no_input(flags, predictions, sequence);
+  if (!flags.truth.empty()) set_truth(sequence, flags.truth, progress);
   ScoredSequence scored(std::move(sequence), protocols, threads, &progress);
   ScoreRecord record;
   record.data = scored.sequence().record();
@@ -344,15 +400,22 @@ Command add_score_command(CommandParser& program) {
               "A labelled map in place of a sequence, for --cloud: the intensity of a point is its "
               "label, 0 or 1 (1 moves), or SemanticKITTI's");
   options.add(
+      "--truth", "FILE", flags->truth,
+      "The edits.json of a reviewed map (`raymoval clean --html`) in place of labels: removed "
+      "points move, others are static");
+  options.add(
       "--predictions", "DIR", flags->predictions,
       "A folder of NNNNNN.label files, in which 251 to 259 mean removed and other labels kept, or "
       "of "
-      ".npy masks (see the docs for learning ids); or the folder above sequences/NN/predictions");
+      ".npy masks (see the docs for learning ids); or the folder above sequences/NN/predictions; "
+      "or "
+      "the edits.json of a reviewed map");
   options.add("--cloud", "FILE", flags->cloud,
               "A cleaned map (.pcd, .ply, .bin) in the world frame of the poses");
-  options.add("--voxel", "METRES", flags->voxel,
-              "The voxel size to which the cloud was thinned; the oracle's cloud is thinned in the "
-              "same way");
+  options.add(
+      "--voxel", "METRES", flags->voxel,
+      "The voxel size to which the cloud was thinned; the oracle's cloud is thinned in the "
+      "same way, and so is a cloud of all points, whose score is what thinning alone costs");
   options.add("--protocol", "NAME", flags->protocols, "The protocol to score by (default: erasor)");
   options.add("--set", "SETTING", flags->settings,
               "An option of a protocol: protocol:NAME.key=value");

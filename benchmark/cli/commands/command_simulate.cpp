@@ -97,9 +97,13 @@ Command add_simulate_command(CommandParser& program) {
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
       "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
       "A cached scene that does not match its manifest.json is simulated again.\n"
+      "roll, pitch and yaw turn the sensor in the vehicle's frame, in degrees: town:roll=90 has "
+      "it\n"
+      "on its side, roll=180 upside down, pitch=90 looking down. The vehicle's path stays.\n"
       "Examples:\n"
       "  raymoval simulate town -o data/town\n"
       "  raymoval simulate crossing -o data/crossing --scans 60 --sensor vlp16 --seed 3\n"
+      "  raymoval simulate town:roll=90 -o data/side\n"
       "  raymoval simulate highway -o data/skewed --rolling skewed --perfect-poses");
   return {options.name(), [flags] { return simulate(*flags); }};
 }

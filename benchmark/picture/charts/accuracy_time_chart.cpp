@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +13,8 @@
 namespace raymoval {
 namespace {
 
-constexpr ChartPoint kTimeCorner{64.0, 48.0}, kTimeSize{460.0, 330.0};
-constexpr std::size_t kMost = 30;  ///< Names in the list beside the plot before it gets longer.
+constexpr ChartPoint kTimeCorner{64.0, 48.0}, kTimeSize{640.0, 340.0};
+constexpr std::size_t kMostNamed = 12;  ///< Methods that have their names beside their markers.
 
 /// A method in the plane of time and accuracy.
 struct Spot {
@@ -41,11 +43,6 @@ std::vector<Spot> spots_of(const RunResults& results, const std::string& protoco
   return spots;
 }
 
-std::string time_text(double ms) {
-  if (ms >= 1000.0) return fixed_text(ms / 1000.0, 2) + " s";
-  return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
-}
-
 /// Whole powers of ten around the times of all methods.
 Axis time_axis(const std::vector<Spot>& spots) {
   const auto [fastest, slowest] = std::minmax_element(
@@ -67,29 +64,9 @@ void draw_front(Chart& chart, const Plot& plot, std::vector<Spot> spots, const R
     points.push_back(plot.at(spot.ms, *best));
   }
   chart.line(points, "front");
-}
-
-/// Draws the methods beside the plot, best first. @return width and height of the chart
-ChartPoint draw_list(Chart& chart, const std::vector<Spot>& spots, const std::string& rate,
-                     std::size_t sequences) {
-  const double x = kTimeCorner.x + kTimeSize.x + 34.0;
-  double name_width = 60.0;
-  for (const Spot& spot : spots) name_width = std::max(name_width, text_width(spot.cell));
-  const double row = spots.size() > kMost ? 15.0 : 19.0;
-  double y = kTimeCorner.y + 8.0;
-  for (const Spot& spot : spots) {
-    chart.marker({x, y - 4.0}, spot.series.look, spot.cell);
-    chart.text(x + 13.0, y, spot.cell);
-    chart.text(x + name_width + 66.0, y, rate_text(rate, spot.accuracy), "ink end");
-    chart.text(x + name_width + 138.0, y, time_text(spot.ms), "soft end");
-    if (spot.sequences < sequences) {
-      chart.text(x + name_width + 146.0, y,
-                 "(" + std::to_string(spot.sequences) + "/" + std::to_string(sequences) + ")",
-                 "soft");
-    }
-    y += row;
-  }
-  return {x + name_width + 196.0, std::max(kTimeCorner.y + kTimeSize.y + 48.0, y + 10.0)};
+  const double right = kTimeCorner.x + kTimeSize.x;
+  chart.line({points.back(), {right, points.back().y}}, "front");
+  chart.text(right - 4.0, points.back().y - 8.0, "Pareto line", "soft end");
 }
 
 }  // namespace
@@ -104,19 +81,22 @@ Chart accuracy_time_chart(const RunResults& results, const std::string& protocol
                   " over the sequences upwards, milliseconds per scan to the right. The line joins "
                   "the methods that no other one beats in both.");
   Plot plot(chart, kTimeCorner, kTimeSize, time_axis(spots),
-            axis_to_best(*rate, spots.back().accuracy), "ms per scan (log scale)",
-            "mean " + rate->name);
+            axis_to_best(*rate, spots.back().accuracy), "ms per scan, log scale (lower is better)",
+            "mean " + axis_title(*rate));
   draw_front(chart, plot, spots, *rate);
   for (const Spot& spot : spots) {
-    const std::string hint = spot.cell + ": mean " + rate->name + " " +
-                             rate_text(rate->name, spot.accuracy) + ", " + time_text(spot.ms) +
-                             " per scan";
-    plot.draw_series(spot.series, {{spot.ms, spot.accuracy, hint, sweep_label(results, spot.cell)}},
-                     false);
+    std::string hint = spot.cell + ": mean " + rate->name + " " +
+                       rate_text(rate->name, spot.accuracy) + ", " + ms_text(spot.ms) + " per scan";
+    if (spot.sequences < results.sequences.size()) {
+      hint += fmt::format(" ({}/{})", spot.sequences, results.sequences.size());
+    }
+    const bool is_named = !results.is_swept(spot.cell) && spots.size() <= kMostNamed;
+    const std::string label = is_named ? spot.cell : sweep_label(results, spot.cell);
+    plot.draw_series(spot.series, {{spot.ms, spot.accuracy, hint, label}}, false);
   }
   plot.draw_labels();
-  const ChartPoint size = draw_list(chart, spots, rate->name, results.sequences.size());
-  chart.set_size(size.x, size.y);
+  finish_with_legend(chart, chart_series(results), kTimeCorner.y + kTimeSize.y + 52.0,
+                     kTimeCorner.x + kTimeSize.x + 30.0);
   return chart;
 }
 

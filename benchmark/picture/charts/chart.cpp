@@ -56,6 +56,11 @@ std::string length_text(double value) {
   return number_text(rounded == 0.0 ? 0.0 : rounded);  // Never "-0".
 }
 
+std::string ms_text(double ms) {
+  if (ms >= 1000.0) return fixed_text(ms / 1000.0, 2) + " s";
+  return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
+}
+
 double text_width(const std::string& text) {
   return 6.8 * static_cast<double>(character_count(text));
 }

@@ -57,6 +57,7 @@ class Chart {
   void add_note(const std::string& line);
 
   [[nodiscard]] bool empty() const { return elements_.empty(); }
+  [[nodiscard]] double width() const { return size_.x; }
   /// One <svg> element. Empty if there is no chart.
   /// @param style empty for a page whose style sheet holds `chart_style()`
   [[nodiscard]] std::string svg(const std::string& style = chart_style()) const;
@@ -65,6 +66,9 @@ class Chart {
   std::string name_, title_, description_, elements_;
   ChartPoint size_;
 };
+
+/// A time as "1.23 ms", "12.3 ms" or "1.23 s".
+std::string ms_text(double ms);
 
 /// A length with at most two decimals: "12.5".
 std::string length_text(double value);

@@ -115,7 +115,8 @@ Axis axis_between(double low, double high) {
 }
 
 std::string axis_title(const RateSpec& rate) {
-  return rate.name + (rate.unit == RateUnit::kPercent ? ", %" : "");
+  return rate.name + (rate.unit == RateUnit::kPercent ? ", %" : "") +
+         (rate.higher_is_better ? " (higher is better)" : " (lower is better)");
 }
 
 Plot::Plot(Chart& chart, const ChartPoint& corner, const ChartPoint& size, const Axis& across,

@@ -50,7 +50,7 @@ Axis axis_to_best(const RateSpec& rate, double worst);
 /// An axis with both values, from a round number to another. @param low less than `high`
 Axis axis_between(double low, double high);
 
-/// The name of a rate with its unit: "PR, %".
+/// The name of a rate with its unit and the better direction: "PR, % (higher is better)".
 std::string axis_title(const RateSpec& rate);
 
 /// A point of a plot, in units of its axes.

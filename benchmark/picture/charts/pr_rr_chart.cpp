@@ -8,9 +8,8 @@
 namespace raymoval {
 namespace {
 
-constexpr double kPanelSide = 230.0;  ///< Of a panel's plot.
-constexpr double kPanelPitch = 304.0;
-constexpr double kPanelRowPitch = 322.0;
+constexpr double kPanelAcross = 74.0;  ///< Between the plots of neighbouring panels.
+constexpr double kPanelDown = 92.0;
 constexpr double kPanelLeft = 56.0;
 constexpr double kPanelTop = 70.0;
 
@@ -19,9 +18,16 @@ struct Panels {
   ChartRates rates;
   Axis across, up;
   bool any = false;  ///< Whether there is a point.
+  bool alone;        ///< Whether there is one panel, which is large and has the methods' names.
+  double side;       ///< Of a panel's plot.
 
   /// Axes that show every point.
-  Panels(const RunResults& results, const std::string& protocol) : rates(results, protocol) {
+  Panels(const RunResults& results, const std::string& protocol)
+      : rates(results, protocol),
+        alone(results.sequences.size() == 1),
+        side(alone                          ? 460.0
+             : results.sequences.size() > 9 ? 170.0
+                                            : 230.0) {
     if (!rates.kept || !rates.removed) return;
     double worst_across = rates.removed->best(), worst_up = rates.kept->best();
     for (const Cell& cell : results.cells) {
@@ -106,7 +112,7 @@ void draw_panel(Chart& chart, const RunResults& results, const std::string& prot
   chart.text(corner.x, corner.y - 24.0, sequence, "bold");
   const RateSpec& across = *panels.rates.removed;
   const RateSpec& up = *panels.rates.kept;
-  Plot plot(chart, corner, {kPanelSide, kPanelSide}, panels.across, panels.up, axis_title(across),
+  Plot plot(chart, corner, {panels.side, panels.side}, panels.across, panels.up, axis_title(across),
             axis_title(up));
   draw_iso_lines(chart, plot, panels);
   bool any = false;
@@ -117,15 +123,17 @@ void draw_panel(Chart& chart, const RunResults& results, const std::string& prot
       const auto y = results.rate(sequence, method, protocol, up.name);
       if (!x || !y) continue;
       const Cell& cell = *results.find(sequence, method);
-      points.push_back({*x, *y, point_hint(cell, *cell.score(protocol), panels.rates),
-                        sweep_label(results, method)});
+      points.push_back(
+          {*x, *y, point_hint(cell, *cell.score(protocol), panels.rates),
+           panels.alone && !results.is_swept(method) ? method : sweep_label(results, method)});
     }
     plot.draw_series(series, points, true);
     any = any || !points.empty();
   }
   plot.draw_labels();
   if (any) return;
-  chart.text(corner.x + kPanelSide / 2.0, corner.y + kPanelSide / 2.0, "no result", "soft middle");
+  chart.text(corner.x + panels.side / 2.0, corner.y + panels.side / 2.0, "no result",
+             "soft middle");
 }
 
 }  // namespace
@@ -140,16 +148,18 @@ Chart pr_rr_chart(const RunResults& results, const std::string& protocol) {
               "A panel for each sequence, a marker for each method" +
                   (equal.empty() ? "" : ", dotted lines of " + equal) +
                   ". Up and right is better.");
-  const std::size_t columns = std::clamp<std::size_t>(results.sequences.size(), 1, 3);
+  const std::size_t most = results.sequences.size() > 9 ? 5 : 3;
+  const std::size_t columns = std::clamp<std::size_t>(results.sequences.size(), 1, most);
+  const double across = panels.side + kPanelAcross, down = panels.side + kPanelDown;
   for (std::size_t i = 0; i < results.sequences.size(); ++i) {
     draw_panel(chart, results, protocol, results.sequences[i], panels,
-               {kPanelLeft + static_cast<double>(i % columns) * kPanelPitch,
-                kPanelTop + static_cast<double>(i / columns) * kPanelRowPitch});
+               {kPanelLeft + static_cast<double>(i % columns) * across,
+                kPanelTop + static_cast<double>(i / columns) * down});
   }
   const std::size_t rows = (results.sequences.size() + columns - 1) / columns;
   finish_with_legend(chart, chart_series(results),
-                     kPanelTop - 14.0 + static_cast<double>(rows) * kPanelRowPitch,
-                     16.0 + std::max(static_cast<double>(columns), 2.0) * kPanelPitch);
+                     kPanelTop - 14.0 + static_cast<double>(rows) * down,
+                     16.0 + std::max(static_cast<double>(columns) * across, 608.0));
   return chart;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "benchmark/picture/charts/charts.h"
 #include "benchmark/picture/charts/plot.h"
 #include "core/text.h"
@@ -32,10 +34,12 @@ Chart reliability_chart(const RunResults& results) {
   Plot plot(chart, kCorner, kSize, kShares, kShares, "mean confidence", "share that moves");
   chart.line({plot.at(0.0, 0.0), plot.at(1.0, 1.0)}, "iso");
   std::vector<ChartSeries> series;
-  for (const MethodReliability& method : results.reliability) {
-    const SeriesStyle look = series_style(series.size(), results.reliability.size());
-    series.push_back({method.cell, look, {method.cell}});
-    plot.draw_series(series.back(), bin_points(method), true);
+  for (const ChartSeries& known : chart_series(results)) {  // The colours of the other charts.
+    for (const MethodReliability& method : results.reliability) {
+      if (std::ranges::find(known.cells, method.cell) == known.cells.end()) continue;
+      series.push_back({method.cell, known.look, {method.cell}});
+      plot.draw_series(series.back(), bin_points(method), true);
+    }
   }
   finish_with_legend(chart, series, kCorner.y + kSize.y + 52.0, kCorner.x + kSize.x + 30.0);
   return chart;

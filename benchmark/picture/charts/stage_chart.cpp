@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <map>
 
 #include "benchmark/picture/charts/charts.h"
+#include "benchmark/tables/table_options.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -42,28 +44,32 @@ Bar bar_of(const MethodTimes& times) {
   return bar;
 }
 
-std::string ms_text(double ms) {
-  return fixed_text(ms, ms < 10.0 ? 2 : 1) + " ms";
-}
+/// A stage has the same colour in all bars.
+using StageColours = std::map<std::string, Colour>;
 
-/// Each bar starts with the first colour, because each method has its own stages; no colour occurs
-/// twice in a bar.
-Colour stage_colour(const Bar& bar, std::size_t stage) {
-  if (bar.stages[stage].name == "other") return kOther;
-  return distinct_colours(bar.stages.size())[stage];
+StageColours stage_colours(const std::vector<Bar>& bars) {
+  std::vector<std::string> names;
+  for (const Bar& bar : bars) {
+    for (const Stage& stage : bar.stages) add_once(names, stage.name);
+  }
+  std::erase(names, "other");
+  const std::vector<Colour> colours = distinct_colours(names.size());
+  StageColours result = {{"other", kOther}};
+  for (std::size_t i = 0; i < names.size(); ++i) result[names[i]] = colours[i];
+  return result;
 }
 
 /// The stages' names and times below a bar, in lines. @return their height
-double draw_names(Chart& chart, const Bar& bar, double y) {
+double draw_names(Chart& chart, const Bar& bar, const StageColours& colours, double y) {
   double x = kMargin, top = y;
-  for (std::size_t i = 0; i < bar.stages.size(); ++i) {
-    const std::string text = bar.stages[i].name + " " + ms_text(bar.stages[i].ms);
+  for (const Stage& stage : bar.stages) {
+    const std::string text = stage.name + " " + ms_text(stage.ms);
     const double width = text_width(text) + 24.0;
     if (x + width > kWidth - kMargin && x > kMargin) {
       x = kMargin;
       top += kLine;
     }
-    chart.rectangle(x, top, 10.0, 10.0, stage_colour(bar, i), text);
+    chart.rectangle(x, top, 10.0, 10.0, colours.at(stage.name), text);
     chart.text(x + 14.0, top + 9.0, text, "soft");
     x += width;
   }
@@ -71,18 +77,19 @@ double draw_names(Chart& chart, const Bar& bar, double y) {
 }
 
 /// @return the height it takes
-double draw_bar(Chart& chart, const Bar& bar, double pixels_per_ms, double y) {
+double draw_bar(Chart& chart, const Bar& bar, const StageColours& colours, double pixels_per_ms,
+                double y) {
   chart.text(kMargin, y + 12.0, bar.method, "bold");
   const double top = y + 18.0;
   double done = 0.0;
-  for (std::size_t i = 0; i < bar.stages.size(); ++i) {
-    const double width = bar.stages[i].ms * pixels_per_ms;
-    chart.rectangle(kMargin + done, top, width, kBar, stage_colour(bar, i),
-                    bar.method + ", " + bar.stages[i].name + ": " + ms_text(bar.stages[i].ms));
+  for (const Stage& stage : bar.stages) {
+    const double width = stage.ms * pixels_per_ms;
+    chart.rectangle(kMargin + done, top, width, kBar, colours.at(stage.name),
+                    bar.method + ", " + stage.name + ": " + ms_text(stage.ms));
     done += width;
   }
   chart.text(kMargin + done + 6.0, top + 12.0, ms_text(bar.total_ms));
-  return 18.0 + kBar + 8.0 + draw_names(chart, bar, top + kBar + 8.0) + 10.0;
+  return 18.0 + kBar + 8.0 + draw_names(chart, bar, colours, top + kBar + 8.0) + 10.0;
 }
 
 }  // namespace
@@ -108,7 +115,8 @@ Chart stage_chart(const RunResults& results) {
   }
   const double pixels_per_ms = (kWidth - 2.0 * kMargin - kTotal) / (most > 0.0 ? most : 1.0);
   double y = kTop + (overlap ? 14.0 : 0.0);
-  for (const Bar& bar : bars) y += draw_bar(chart, bar, pixels_per_ms, y);
+  const StageColours colours = stage_colours(bars);
+  for (const Bar& bar : bars) y += draw_bar(chart, bar, colours, pixels_per_ms, y);
   chart.set_size(kWidth, y + 4.0);
   return chart;
 }

@@ -27,11 +27,6 @@ constexpr int kLastVersion = 9;
 /// Up to this version files are listed with the name of their folder before them.
 constexpr int kLastWithFolder = 3;
 
-std::string lower(std::string text) {
-  for (char& letter : text) letter = static_cast<char>(std::tolower(letter & 0x7F));
-  return text;
-}
-
 /// The value of a key as text; empty if it is missing, a list or a map.
 std::string value_of(const YAML::Node& node, const char* key) {
   const YAML::Node found = node[key];
@@ -101,8 +96,8 @@ void add_file(Ros2Metadata& metadata, const YAML::Node& node, std::set<fs::path>
 
 /// @throws UsageError for a compression that is not supported
 void check_compression(const YAML::Node& information, const fs::path& path) {
-  const std::string mode = lower(value_of(information, "compression_mode"));
-  const std::string format = lower(value_of(information, "compression_format"));
+  const std::string mode = in_lower_case(value_of(information, "compression_mode"));
+  const std::string format = in_lower_case(value_of(information, "compression_format"));
   if (mode.empty() || mode == "none" || mode == "~" || mode == "null") return;
   if (format != "zstd") {
     throw UsageError(path.string() + ": the recording is compressed by '" + format +

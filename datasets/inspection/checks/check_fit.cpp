@@ -6,9 +6,11 @@
 
 #include "core/text.h"
 #include "datasets/inspection/checks/checks.h"
+#include "datasets/inspection/evidence/pair_fit.h"
 #include "datasets/inspection/evidence/pose_fit.h"
 #include "datasets/inspection/evidence/pose_hypotheses.h"
 #include "datasets/inspection/evidence/time_offset.h"
+#include "datasets/registration/reposed_source.h"
 
 namespace raymoval::inspection {
 namespace {
@@ -50,8 +52,11 @@ std::string frames_beside(const Samples& samples, const PairDistance& jump) {
 }
 
 std::string remedy_of(const Samples& samples, const PoseFit& fit) {
-  const std::string improve =
+  std::string improve =
       "Estimate the poses again with a SLAM program that closes loops (docs/poses.md names some).";
+  if (!samples.sequence().topics.empty()) {
+    improve += " If each topic alone fits, the place of one sensor beside the other is wrong.";
+  }
   if (fit.distance_m > registration::kMostDistance) return improve;
   const auto jump = find_jump(*samples.sequence().scans, fit);
   if (!jump) return improve;
@@ -61,30 +66,17 @@ std::string remedy_of(const Samples& samples, const PoseFit& fit) {
       improve);
 }
 
-/// The scans under other poses.
-class ReposedScans : public ScanSource {
- public:
-  ReposedScans(const ScanSource& scans, const PoseHypothesis& hypothesis)
-      : scans_(scans), hypothesis_(hypothesis) {}
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Pose pose(std::size_t index) const override { return hypothesis_.pose(index); }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = scans_.load(index);
-    scan.T_world_sensor = pose(index);
-    return scan;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return scans_.sensor(); }
-
- private:
-  const ScanSource& scans_;
-  const PoseHypothesis& hypothesis_;
-};
-
 /// Tries the hypotheses on poses again: similar scans along a street agree under wrong poses, too,
-/// but do not fit to the centimetre.
-std::optional<Finding> explained(const Samples& samples, const PoseFit& given) {
+/// but do not fit to the centimetre. Hypotheses under which scans agree less are left out.
+std::optional<Finding> explained(Samples& samples, const PoseFit& given) {
+  PairFit agreement(samples);
+  agreement.find_best({});
+  const double least = agreement.share([&](std::size_t i) { return samples.poses()[i]; });
   for (const PoseHypothesis& hypothesis : pose_hypotheses(samples)) {
-    const ReposedScans scans(*samples.sequence().scans, hypothesis);
+    if (agreement.share(hypothesis.pose) < least) continue;
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < samples.size(); ++i) poses.push_back(hypothesis.pose(i));
+    const ReposedSource scans(samples.sequence().scans, std::move(poses));
     const PoseFit fit = registration::measure_pose_fit(scans, samples.threads(), samples.cancel());
     if (!fits(fit) || fit.distance_m > kExplained * given.distance_m ||
         10 * fit.pairs.size() < 9 * given.pairs.size()) {

@@ -68,6 +68,7 @@ std::string remedy_of(const Samples& samples, const Eigen::Vector3d& given,
 /// The field that names the sensor of a point; empty if there is none.
 std::string sensor_field(const Samples& samples) {
   const std::optional<SensorPlaces>& given = samples.sequence().sensor_origin;
+  if (!samples.sequence().topics.empty()) return kTopicField;
   if (given && !given->field.empty()) return given->field;
   const auto& records = samples.sequence().records;
   if (records == nullptr || samples.scans().empty()) return "";
@@ -82,6 +83,12 @@ std::map<std::int64_t, std::vector<Scan>> clouds_of_sensors(const Samples& sampl
                                                             const SensorPlaces& places) {
   constexpr std::size_t kMostSensors = 16;
   std::map<std::int64_t, std::vector<Scan>> clouds;
+  if (const auto& topics = samples.sequence().topics; !topics.empty()) {
+    for (const auto& [index, scan] : samples.scans()) {
+      clouds[static_cast<std::int64_t>(topics[index])].push_back(scan);
+    }
+    return clouds;
+  }
   if (places.field.empty()) return clouds;
   for (const Scan& whole : samples.some_scans(kScans)) {
     std::map<std::int64_t, Scan> of_sensor;
@@ -101,7 +108,8 @@ std::map<std::int64_t, std::vector<Scan>> clouds_of_sensors(const Samples& sampl
 
 SeenSensors look_at_sensors(const Samples& samples) {
   SensorPlaces places = samples.sequence().sensor_origin.value_or(SensorPlaces());
-  const bool given = !places.field.empty();
+  const bool topics = !samples.sequence().topics.empty();
+  const bool given = topics || !places.field.empty();
   places.field = sensor_field(samples);
   const auto clouds = clouds_of_sensors(samples, places);
   if (clouds.empty()) return {};
@@ -120,8 +128,10 @@ SeenSensors look_at_sensors(const Samples& samples) {
   if (!wrong) return seen;
   Finding finding;
   finding.where = samples.all_frames();
-  finding.what = fmt::format("field '{}' names {} sensors whose clouds are merged", places.field,
-                             clouds.size());
+  finding.what = topics ? "scan lines show that beams do not start at the origin of their topic's "
+                          "points"
+                        : fmt::format("field '{}' names {} sensors whose clouds are merged",
+                                      places.field, clouds.size());
   finding.remedy = "Use --sensor-origin " + places.field + ":" + join(parts, "/") + ".";
   if (!seen.are_known) {
     finding.remedy += " X,Y,Z is the position of a sensor in the frame of the points.";

@@ -198,8 +198,10 @@ std::vector<Check> pose_checks() {
                     "TUM rows: t x y z qx qy qz qw; VIEWPOINT: tx ty tz qw qx qy qz",
                     "For a pose file use --pose-format euroc if w is the first of the four "
                     "numbers, or --pose-format tum if it is the last. Else reorder the columns."),
-      verdict_check("poses-in-millimetres", "positions of the poses are in millimetres", "metres",
-                    "Divide the positions by 1,000."),
+      verdict_check("poses-in-millimetres",
+                    "positions of the poses are in millimetres or centimetres", "metres",
+                    "Divide the positions by 1,000 if they are millimetres, or by 100 if they are "
+                    "centimetres."),
       verdict_check("poses-coarse", "positions far from the origin have too few digits",
                     "positions to the millimetre",
                     "Write positions with all their digits (in C++ std::setprecision(12)), or "

@@ -7,6 +7,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/scan/local_frame.h"
 #include "core/text.h"
 #include "datasets/ego/ego_estimate.h"
 #include "datasets/inspection/checks/checks.h"
@@ -27,12 +28,14 @@ std::string degrees(double radians) {
   return fixed_text(radians / kDegree, 2) + " deg";
 }
 
-/// Share of the points more than `margin` radians above or below the field of view.
+/// Share of the points more than `margin` radians above or below the field of view, about the spin
+/// axis that the scans show.
 double share_out_of_view(const Samples& samples, const SensorModel& sensor, double margin) {
+  const Eigen::Matrix3d turn = turn_to_z(samples.estimated_sensor().spin_axis);
   std::size_t points = 0, out = 0;
   for (const auto& [index, scan] : samples.scans()) {
     for (const Eigen::Vector3f& point : scan.points) {
-      const Eigen::Vector3d p = point.cast<double>();
+      const Eigen::Vector3d p = turn * point.cast<double>();
       const double elevation = std::atan2(p.z(), p.head<2>().norm());
       ++points;
       if (elevation < sensor.elevation_min - margin || elevation > sensor.elevation_max + margin) {
@@ -169,8 +172,8 @@ std::vector<Finding> look_for_ego(Samples& samples) {
   std::vector<const Scan*> scans;
   for (const std::size_t index : apart) scans.push_back(&samples.scans().at(index));
   const EgoEstimate estimate = estimate_ego(
-      scans,
-      [&](std::size_t k) -> const std::vector<Surfel>& { return samples.surfels(apart[k]); });
+      scans, [&](std::size_t k) -> const std::vector<Surfel>& { return samples.surfels(apart[k]); },
+      samples.sequence().up().direction);
   if (!estimate.has_enough_motion()) return {};
   samples.measures.emplace_back("steady_cells", static_cast<double>(estimate.steady));
   samples.measures.emplace_back("steady_cells_at_sensor", static_cast<double>(estimate.own.size()));

@@ -139,8 +139,8 @@ double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::string evidence_text(const GravityEvidence& evidence) {
   return fmt::format(
       "the ground faces {}, and of the other surfaces {} % by area are upright if up is {}",
-      up_text(evidence.ground), fixed_text(100.0 * evidence.share_upright, 0),
-      up_text(evidence.upright));
+      axis_text(evidence.ground), fixed_text(100.0 * evidence.share_upright, 0),
+      axis_text(evidence.upright));
 }
 
 /// Whether up can be checked. Poses that do not fit the scans are no evidence on up.
@@ -158,7 +158,7 @@ std::vector<Finding> look_at_axes(Samples& samples) {
   return {{.severity = Severity::kNote,
            .what = fmt::format("up is {}: {}; methods get the rotated world; results and maps keep "
                                "the world of the poses",
-                               up_text(up.direction), evidence_text(evidence))}};
+                               axis_text(up.direction), evidence_text(evidence))}};
 }
 
 /// Compares the user's up direction with the scans.
@@ -169,9 +169,9 @@ std::vector<Finding> look_for_wrong_up(Samples& samples) {
   const GravityEvidence evidence = estimate_gravity(*samples.sequence().scans, up.direction);
   const double apart = degrees_between(up.direction, evidence.up.direction);
   if (evidence.ground.isZero() || apart < kContradiction) return {};
-  return {
-      {.what = fmt::format("up is given as {}, which is {} degrees from what the scans show: {}",
-                           up_text(up.direction), fixed_text(apart, 0), evidence_text(evidence))}};
+  return {{.what = fmt::format(
+               "up is given as {}, which is {} degrees from what the scans show: {}",
+               axis_text(up.direction), fixed_text(apart, 0), evidence_text(evidence))}};
 }
 
 /// Step of float32 numbers at `magnitude`.

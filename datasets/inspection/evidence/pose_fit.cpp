@@ -150,7 +150,7 @@ std::vector<PoseHypothesis> turned_on_body(const std::vector<Pose>& poses,
 }
 
 /// Poses of a body on which the sensor is turned: as they are given, or misread.
-std::vector<PoseHypothesis> body_hypotheses(const Samples& samples,
+std::vector<PoseHypothesis> body_hypotheses(Samples& samples,
                                             const std::vector<RegisteredMotion>& seen) {
   const std::optional<Pose>& T_body_sensor = samples.sequence().T_body_sensor;
   const bool of_camera = samples.sequence().T_camera_lidar.has_value();

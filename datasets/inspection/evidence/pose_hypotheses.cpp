@@ -17,15 +17,15 @@ namespace {
 using Eigen::Matrix3d;
 
 /// Distance between scans beyond which another unit is tried, metres: no vehicle moves so far, even
-/// at one scan per second.
+/// at one scan per second. A gap between two drives is not enough.
 constexpr double kTooFast = 50.0;
 
-double longest_step(const std::vector<Pose>& poses) {
-  double longest = 0.0;
+bool are_too_fast(const std::vector<Pose>& poses) {
+  std::size_t fast = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    longest = std::max(longest, (poses[i].translation() - poses[i - 1].translation()).norm());
+    if ((poses[i].translation() - poses[i - 1].translation()).norm() > kTooFast) ++fast;
   }
-  return longest;
+  return 10 * fast >= poses.size();
 }
 
 Pose with_rotation(const Pose& pose, const Matrix3d& rotation) {
@@ -66,8 +66,7 @@ Pose camera_of(const Samples& samples) {
   }
 }
 
-/// Whether the poses are written with quaternions; true if unknown.
-bool have_quaternions(const Samples& samples) {
+bool read_quaternions(const Samples& samples) {
   if (samples.files().empty() || samples.has_viewpoints()) return true;
   const auto folder = samples.files().front().path.parent_path();
   for (const auto& place : {folder, folder.parent_path()}) {
@@ -75,6 +74,12 @@ bool have_quaternions(const Samples& samples) {
     if (is_file(path)) return read_pose_file(path).has_quaternions;
   }
   return true;
+}
+
+/// Whether the poses are written with quaternions; true if unknown.
+bool have_quaternions(Samples& samples) {
+  if (!samples.quaternions) samples.quaternions = read_quaternions(samples);
+  return *samples.quaternions;
 }
 
 /// Points in camera axes with poses of the LiDAR move like LiDAR points with poses of a camera, and
@@ -103,7 +108,7 @@ void add_world_hypotheses(const Samples& samples, std::vector<PoseHypothesis>& a
 
 }  // namespace
 
-std::vector<MisreadPoses> misread_poses(const Samples& samples) {
+std::vector<MisreadPoses> misread_poses(Samples& samples) {
   std::vector<MisreadPoses> all = {{"poses-inverted", "under the inverse of each pose",
                                     [](const Pose& pose) { return Pose(pose.inverse()); },
                                     "--pose-format inverse"}};
@@ -121,13 +126,13 @@ std::vector<MisreadPoses> misread_poses(const Samples& samples) {
   return all;
 }
 
-std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples) {
+std::vector<PoseHypothesis> pose_hypotheses(Samples& samples) {
   const auto& poses = samples.poses();
   const std::size_t last = poses.size() - 1;
   std::vector<PoseHypothesis> all;
   add_frame_hypotheses(poses, camera_of(samples), all);
   add_world_hypotheses(samples, all);
-  if (longest_step(poses) > kTooFast) {
+  if (are_too_fast(poses)) {
     all.push_back(
         {"poses-in-millimetres", "if positions are divided by 1,000", [&poses](std::size_t i) {
            Pose pose = poses[i];

@@ -31,10 +31,10 @@ struct MisreadPoses {
 
 /// Inverse poses, and the other order of quaternions where the pose file has quaternions.
 /// @throws DataError if the pose file cannot be read
-std::vector<MisreadPoses> misread_poses(const Samples& samples);
+std::vector<MisreadPoses> misread_poses(Samples& samples);
 
 /// All plausible hypotheses for these poses; refers to `samples.poses()`.
 /// @throws DataError as in file_kind.h if the calibration or the poses cannot be read
-std::vector<PoseHypothesis> pose_hypotheses(const Samples& samples);
+std::vector<PoseHypothesis> pose_hypotheses(Samples& samples);
 
 }  // namespace raymoval::inspection

@@ -83,6 +83,8 @@ class Samples {
   [[nodiscard]] std::string all_frames() const;
   [[nodiscard]] std::string pose_source() const;
 
+  /// Set by the first check that needs it: whether the pose file has quaternions.
+  std::optional<bool> quaternions;
   /// Set by the first check that needs it.
   std::optional<PoseVerdict> pose_verdict;
   /// Set by the first check that needs it.

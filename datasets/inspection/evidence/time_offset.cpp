@@ -54,6 +54,7 @@ bool goes_by_time(const Samples& samples) {
   constexpr double kSame = 1e-3;
   const Sequence& sequence = samples.sequence();
   if (sequence.motion == nullptr || sequence.motion->follows_scans()) return false;
+  if (!sequence.topics.empty()) return false;  // The motion is that of one of the sensors.
   if (sequence.stamps.size() != samples.size() || samples.size() < 2) return false;
   for (const std::size_t scan : {std::size_t{0}, samples.size() - 1}) {
     const auto pose = sequence.motion->at(sequence.stamps[scan]);

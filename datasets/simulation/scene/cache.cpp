@@ -40,9 +40,8 @@ std::string identity(const SimulationOptions& options, const simulated::NamedTex
   add(number_text(options.pose_noise));
   add(std::to_string(static_cast<int>(options.rolling)));
   add(options.noise_free ? "noise-free" : "noisy");
-  for (const auto& [name, angle] :
-       {std::pair("turned", options.turned_deg), std::pair("tilted", options.tilted_deg)}) {
-    if (angle != 0.0) add(name + (" " + number_text(angle)));
+  for (const auto& [name, angle] : options.angles()) {
+    if (angle != 0.0) add(name + " " + number_text(angle));
   }
   return hasher.digest();
 }

@@ -16,6 +16,12 @@ namespace {
 
 using Setter = std::function<void(SimulationOptions&, const std::string& what, const std::string&)>;
 
+std::pair<std::string, Setter> angle_setter(const char* key, double SimulationOptions::*angle) {
+  return {key, [angle](auto& options, auto& what, auto& text) {
+            options.*angle = parse_turn(what, text);
+          }};
+}
+
 const std::vector<std::pair<std::string, Setter>>& setters() {
   static const std::vector<std::pair<std::string, Setter>> all = {
       {"scans",
@@ -27,10 +33,11 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
                         auto& text) { options.pose_noise = parse_pose_noise(what, text); }},
       {"rolling",
        [](auto& options, auto& what, auto& text) { options.rolling = parse_rolling(what, text); }},
-      {"turned",
-       [](auto& options, auto& what, auto& text) { options.turned_deg = parse_turn(what, text); }},
-      {"tilted",
-       [](auto& options, auto& what, auto& text) { options.tilted_deg = parse_turn(what, text); }}};
+      angle_setter("turned", &SimulationOptions::turned_deg),
+      angle_setter("tilted", &SimulationOptions::tilted_deg),
+      angle_setter("roll", &SimulationOptions::roll_deg),
+      angle_setter("pitch", &SimulationOptions::pitch_deg),
+      angle_setter("yaw", &SimulationOptions::yaw_deg)};
   return all;
 }
 

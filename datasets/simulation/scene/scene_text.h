@@ -10,7 +10,7 @@ namespace raymoval {
 /// Form of `parse_scene`, for messages and listings.
 inline constexpr const char* kSceneForm =
     "SCENE[:key=value,...] with the keys scans, seed, sensor, pose_noise, rolling, "
-    "turned and tilted";
+    "turned, tilted, roll, pitch and yaw";
 
 /// Whether `text` names a built-in scene or an existing scene file (*.json), with or without
 /// options. @throws DataError as `is_file`, for example for a file name that is too long

@@ -157,9 +157,13 @@ void write_tables(const SimulatedSequence& sequence, SceneFolder& folder) {
   folder.write("calib.txt", calib + "Tr: " + row_text(Tr) + "\n");
 }
 
-/// A text on the world's axes; empty for 0 degrees.
-std::string angle_text(const std::string& what, double degrees) {
-  return degrees == 0.0 ? "" : what + number_text(degrees) + " degrees";
+/// The angles other than 0: ", turned by 30 degrees".
+std::string angles_text(const SimulationOptions& options) {
+  std::string text;
+  for (const auto& [name, degrees] : options.angles()) {
+    if (degrees != 0.0) text += ", " + name + " by " + number_text(degrees) + " degrees";
+  }
+  return text;
 }
 
 void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
@@ -168,12 +172,11 @@ void write_description(const SimulationOptions& options, const SimulatedSequence
   const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
   nlohmann::ordered_json record;
   record["name"] = sequence.name();
-  record["source"] =
-      "simulated by raymoval: scene " + sequence.name() + ", sensor " + sequence.sensor_name() +
-      ", seed " + std::to_string(options.seed) + ", pose noise " + number_text(options.pose_noise) +
-      ", rolling " + kRollingNames[static_cast<int>(options.rolling)] +
-      (options.noise_free ? ", noise-free" : "") + angle_text(", turned by ", options.turned_deg) +
-      angle_text(", tilted by ", options.tilted_deg);
+  record["source"] = "simulated by raymoval: scene " + sequence.name() + ", sensor " +
+                     sequence.sensor_name() + ", seed " + std::to_string(options.seed) +
+                     ", pose noise " + number_text(options.pose_noise) + ", rolling " +
+                     kRollingNames[static_cast<int>(options.rolling)] +
+                     (options.noise_free ? ", noise-free" : "") + angles_text(options);
   record["sensor"] = named ? sequence.sensor_name() : "estimated";
   record["scan_period_s"] = sequence.scan_period_s();
   record["poses"] = "poses.txt";

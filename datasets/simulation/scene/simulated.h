@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -32,6 +33,18 @@ struct SimulationOptions {
   /// The axes of the sequence's world, in degrees: turned about z, which is up, and then tilted
   /// about the new x, so that z is not up. The scans do not change by a bit.
   double turned_deg = 0.0, tilted_deg = 0.0;
+  /// Turns of the sensor in the vehicle's frame (x forward, y left, z up), in degrees: first about
+  /// x, then about y, then about z. The vehicle, its path and the sequence's world stay.
+  double roll_deg = 0.0, pitch_deg = 0.0, yaw_deg = 0.0;
+
+  /// The angles that are 0 by default, with the names that `parse_scene` gives them.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> angles() const {
+    return {{"turned", turned_deg},
+            {"tilted", tilted_deg},
+            {"roll", roll_deg},
+            {"pitch", pitch_deg},
+            {"yaw", yaw_deg}};
+  }
 };
 
 /// The true motion of one mover, for records and tests.

@@ -28,7 +28,10 @@ std::string six_digits(std::size_t number) {
 
 /// `pose` without pitch and roll, so that z of a world frame anchored to it is up.
 Pose level(const Pose& pose) {
-  const Eigen::Vector3d x = pose.linear().col(0);
+  constexpr double kVertical = 0.999;
+  Eigen::Vector3d x = pose.linear().col(0);
+  // A sensor that looks down or up: its z axis has the heading.
+  if (std::abs(x.z()) > kVertical) x = -x.z() * pose.linear().col(2);
   const double yaw = std::atan2(x.y(), x.x());
   Pose result = Pose::Identity();
   result.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -58,7 +61,7 @@ class Simulation final : public SimulatedSequence {
         scanner_(
             world_, sensor_, [this](double t) { return world_.ego()->sensor_pose(t); },
             {options.seed, options.rolling, options.noise_free}, threads),
-        anchor_(sequence_frame(options, world_.ego()->sensor_pose(0.0))),
+        anchor_(sequence_frame(options, world_.ego()->usual_sensor_pose(0.0))),
         errors_(simulated::pose_errors({}, options.pose_noise, count_, sensor_.period_s,
                                        options.seed)) {
     std::size_t whole = 0;
@@ -155,13 +158,15 @@ std::shared_ptr<const SimulatedSequence> make_simulated(const SimulationOptions&
     throw UsageError("the severity of pose noise is " + number_text(options.pose_noise) +
                      ", expected 0 (perfect) to 1000; 1 is a good LiDAR odometry.");
   }
-  for (const double angle : {options.turned_deg, options.tilted_deg}) {
+  for (const auto& [name, angle] : options.angles()) {
     if (std::abs(angle) <= 360.0) continue;
-    throw UsageError("the axes of a simulated world are turned by " + number_text(angle) +
+    throw UsageError("the angle '" + name + "' of a simulation is " + number_text(angle) +
                      " degrees, expected -360 to 360.");
   }
   if (options.scans > 1'000'000) throw UsageError("a simulation has at most 1,000,000 scans.");
   WorldFile world = simulated::parse_world(simulated::find_world(options.scene));
+  world.ego.mount = {options.roll_deg, options.pitch_deg, options.yaw_deg};
+  world.ego.mount *= kDegree;
   const std::string sensor = options.sensor.empty() ? world.sensor : options.sensor;
   return std::make_shared<Simulation>(
       options, std::move(world), simulated::parse_sensor(simulated::find_sensor(sensor)), threads);

@@ -155,14 +155,16 @@ Body make_bus(Random& random) {
   return body;
 }
 
-Body make_tram(Random& random) {
-  Body body = body_of(kLabelTram, kLabelMovingTram, 29.0, 2.4);
+/// A tram or a train of `cars`.
+Body make_tram(Random& random, int cars) {
+  constexpr double kCar = 9.8;
+  Body body = body_of(kLabelTram, kLabelMovingTram, kCar * (cars - 1) + 9.4, 2.4);
   body.parts.clear();
   const Paint paint = random_paint(random);
-  for (const double along : {-9.8, 0.0, 9.8}) {
+  for (int i = 0; i < cars; ++i) {
     BodyPart car;
     car.joint = BodyPart::Joint::kCar;
-    car.along_m = along;
+    car.along_m = kCar * (i - 0.5 * (cars - 1));
     const double f = 4.7;
     add_box(car.mesh, paint, {-f, -1.2, 0.25}, {f, 1.2, 1.2});
     add_box(car.mesh, paint_of(Material::kGlass), {-f + 0.04, -1.18, 1.2}, {f - 0.04, 1.18, 2.5});
@@ -214,7 +216,7 @@ Body body_of(std::uint16_t standing, std::uint16_t moving, double length, double
 const std::vector<std::string>& body_kinds() {
   static const std::vector<std::string> kinds = {"car",        "van",        "truck",   "bus",
                                                  "tram",       "motorcycle", "scooter", "cyclist",
-                                                 "pedestrian", "forklift"};
+                                                 "pedestrian", "forklift",   "train"};
   return kinds;
 }
 
@@ -223,7 +225,8 @@ Body make_body(const std::string& kind, Random& random) {
   if (kind == "van") return make_van(random);
   if (kind == "truck") return make_truck(random);
   if (kind == "bus") return make_bus(random);
-  if (kind == "tram") return make_tram(random);
+  if (kind == "tram") return make_tram(random, 3);
+  if (kind == "train") return make_tram(random, 12);
   if (kind == "motorcycle") return make_motorcyclist(random);
   if (kind == "scooter") return make_scooter_rider(random);
   if (kind == "forklift") return make_forklift(random);

@@ -80,4 +80,14 @@ Mesh make_ceiling(const PartSpec& spec, Random&) {
   return mesh;
 }
 
+Mesh make_ramp(const PartSpec& spec, Random&) {
+  constexpr double kThick = 0.25;
+  Mesh mesh;
+  const double l = 0.5 * size_or(spec.length_m, 16.0);
+  const double h = size_or(spec.height_m, 3.0);
+  add_extrusion(mesh, {Material::kConcrete, kLabelOtherGround},
+                {{-l, -kThick}, {l, h - kThick}, {l, h}, {-l, 0.0}}, size_or(spec.width_m, 4.0));
+  return mesh;
+}
+
 }  // namespace raymoval::simulated

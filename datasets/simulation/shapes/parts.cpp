@@ -218,6 +218,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"rack", plain(make_rack)},
       {"pillar", plain(make_pillar)},
       {"ceiling", plain(make_ceiling)},
+      {"ramp", plain(make_ramp)},
       {"parked_car", vehicle("car")},
       {"parked_van", vehicle("van")},
       {"parked_truck", vehicle("truck")},

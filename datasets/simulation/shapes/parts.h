@@ -15,6 +15,7 @@ struct PartSpec {
   double length_m = 0.0;  ///< Along the row.
   double width_m = 0.0;   ///< Away from the road.
   double height_m = 0.0;
+  double above_m = 0.0;  ///< Its foot above the ground, such as on a storey.
 };
 
 /// A given size, or the usual size.
@@ -61,6 +62,9 @@ Mesh make_rack(const PartSpec& spec, Random& random);
 Mesh make_pillar(const PartSpec& spec, Random& random);
 /// A slab with beams: `length_m` by `width_m` around its place, `height_m` above the ground.
 Mesh make_ceiling(const PartSpec& spec, Random& random);
+
+/// An inclined slab, `length_m` by `width_m`, that rises along x from the ground to `height_m`.
+Mesh make_ramp(const PartSpec& spec, Random& random);
 
 /// Whether a part fills the whole length of its place in a row (fence, hedge).
 bool is_continuous(const std::string& part);

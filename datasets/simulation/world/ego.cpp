@@ -164,6 +164,17 @@ Isometry3d Ego::base(double time) const {
 }
 
 Isometry3d Ego::sensor_pose(double time) const {
+  Isometry3d pose = usual_sensor_pose(time);
+  if (spec_.mount.isZero(0.0)) return pose;
+  const Eigen::Quaterniond turn = Eigen::AngleAxisd(spec_.mount.z(), Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(spec_.mount.y(), Vector3d::UnitY()) *
+                                  Eigen::AngleAxisd(spec_.mount.x(), Vector3d::UnitX());
+  const Eigen::Matrix3d vehicle = base(time).linear();
+  pose.linear() = vehicle * turn * vehicle.transpose() * pose.linear();
+  return pose;
+}
+
+Isometry3d Ego::usual_sensor_pose(double time) const {
   Isometry3d mount = Isometry3d::Identity();
   mount.translation() =
       Vector3d(spec_.sensor_forward_m, spec_.sensor_left_m, spec_.sensor_height_m);

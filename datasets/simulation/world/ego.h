@@ -18,6 +18,8 @@ struct EgoSpec {
   double sensor_left_m = 0.0;
   double sensor_pitch_rad = 0.0;  ///< Positive = looking down.
   double sensor_roll_rad = 0.0;   ///< Positive = leaning to the right.
+  /// Roll, pitch and yaw of the sensor in the vehicle's frame, after the angles above; radians.
+  Eigen::Vector3d mount = Eigen::Vector3d::Zero();
   /// A person's gait: the body bobs and rocks with the steps, and turns slowly.
   double sway_m = 0.0;
   double sway_rad = 0.0;
@@ -34,6 +36,8 @@ class Ego {
 
   /// True `T_world_sensor`.
   [[nodiscard]] Eigen::Isometry3d sensor_pose(double time) const;
+  /// The same without `EgoSpec::mount`.
+  [[nodiscard]] Eigen::Isometry3d usual_sensor_pose(double time) const;
   /// Adds the vehicle's surfaces (label 1) and an excavator's moving arm (label 259).
   void place(double time, std::vector<PlacedPart>& parts) const;
   /// Whether there is road (or path) under the vehicle at `time`.

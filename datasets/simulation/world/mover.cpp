@@ -19,7 +19,8 @@ Track::Track(const Route& route, const Ground& ground)
       lane_(route.lane_m),
       reverse_(route.reverse),
       start_(route.start_m),
-      speed_(route.speed) {}
+      speed_(route.speed),
+      lift_(route.lift) {}
 
 bool Track::reaches(double s) const {
   return closed() || (s >= 0.0 && s <= length());
@@ -32,7 +33,7 @@ Isometry3d Track::frame(double s, double left, double wheelbase, double gauge) c
   const Vector2d x = (reverse_ ? -1.0 : 1.0) * path_.direction(on_path);
   const Vector2d y(-x.y(), x.x());
   const auto height = [&](double forward, double side) {
-    return ground_->height(at + forward * x + side * y);
+    return ground_->height(at + forward * x + side * y) + lift_.speed(s + forward);
   };
   const double h = 0.5 * wheelbase;
   const double g = 0.5 * gauge;

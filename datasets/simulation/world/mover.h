@@ -29,6 +29,8 @@ struct Route {
   std::vector<Eigen::Vector2d> points;  ///< In the plane of the world, metres.
   double start_m = 0.0;                 ///< Distance along the route at time 0.
   SpeedProfile speed;
+  /// Metres above the ground, over the distance along the route: a ramp and the storey it leads to.
+  SpeedProfile lift;
 };
 
 /// The time span in which an object is in the world, seconds.
@@ -63,6 +65,7 @@ class Track {
   bool reverse_;
   double start_;
   SpeedProfile speed_;
+  SpeedProfile lift_;
 };
 
 /// An object that follows a track.

@@ -37,7 +37,8 @@ class Path {
   bool closed_ = false;
 };
 
-/// Speed over time, linear between the given (seconds, metres per second); constant outside.
+/// Speed over time, linear between the given (seconds, metres per second); constant outside. Also
+/// height over distance.
 class SpeedProfile {
  public:
   SpeedProfile() : SpeedProfile({{0.0, 0.0}}) {}

@@ -132,7 +132,7 @@ void World::add_row(const RowSpec& row, std::uint64_t seed, std::uint64_t number
       }
       const std::uint16_t instance = has_instance(part.part) ? next_instance() : 0;
       add_static(make_part(part, instance, random),
-                 placed(at.x(), at.y(), ground_->height(at), yaw));
+                 placed(at.x(), at.y(), ground_->height(at) + part.above_m, yaw));
     }
   }
 }
@@ -141,7 +141,8 @@ void World::add_place(const PlaceSpec& place, std::uint64_t seed, std::uint64_t 
   Random random(seed, Purpose::kPart, number);
   const std::uint16_t instance = has_instance(place.part.part) ? next_instance() : 0;
   add_static(make_part(place.part, instance, random),
-             placed(place.at.x(), place.at.y(), ground_->height(place.at), place.yaw_rad));
+             placed(place.at.x(), place.at.y(), ground_->height(place.at) + place.part.above_m,
+                    place.yaw_rad));
 }
 
 void World::add_movers(const MoverSpec& spec, std::uint64_t seed, std::uint64_t number) {

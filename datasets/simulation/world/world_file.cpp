@@ -64,18 +64,20 @@ Road read_road(const nlohmann::json& json, const std::string& where) {
   return road;
 }
 
-SpeedProfile read_speed(const Fields& f, const std::string& key) {
+/// Speed over time, or height over distance; `pairs` names them in messages.
+SpeedProfile read_profile(const Fields& f, const std::string& key,
+                          const std::string& pairs = "seconds and metres a second") {
   if (!f.has(key)) return {};
   if (f.is_number(key)) return SpeedProfile({{0.0, f.number(key, 0.0, 0.0, 100.0)}});
   for (const auto& [time, speed] : f.pairs(key)) {
     if (std::abs(time) > 1e6 || std::abs(speed) > 100.0) {
-      f.fail(key, "pairs of seconds and metres a second, [0, 8], at most 1e6 and 100");
+      f.fail(key, "pairs of " + pairs + ", [0, 8], at most 1e6 and 100");
     }
   }
   return at_place(f.place(key), [&] { return SpeedProfile(f.pairs(key)); });
 }
 
-const std::string kRouteKeys = "road lane_m reverse points start_m ";
+const std::string kRouteKeys = "road lane_m reverse points start_m lift ";
 
 Route read_route(const Fields& f, const std::string& speed_key) {
   Route route;
@@ -84,7 +86,8 @@ Route read_route(const Fields& f, const std::string& speed_key) {
   route.reverse = f.flag("reverse", false);
   route.points = f.points("points", kWorldReach);
   route.start_m = f.number("start_m", 0.0, -1e5, 1e5);
-  if (!speed_key.empty()) route.speed = read_speed(f, speed_key);
+  if (!speed_key.empty()) route.speed = read_profile(f, speed_key);
+  route.lift = read_profile(f, "lift", "metres along the route and metres above the ground");
   if (route.road.empty() == route.points.empty()) {
     f.fail("road", "either 'road' or 'points', not both or none");
   }
@@ -121,6 +124,7 @@ PartSpec read_part(const Fields& f) {
   part.length_m = f.number("length_m", 0.0, 0.0, 500.0);
   part.width_m = f.number("width_m", 0.0, 0.0, 500.0);
   part.height_m = f.number("height_m", 0.0, 0.0, 200.0);
+  part.above_m = f.number("above_m", 0.0, 0.0, 200.0);
   return part;
 }
 
@@ -128,7 +132,7 @@ RowSpec read_row(const nlohmann::json& json, const std::string& where) {
   const Fields f(json, where,
                  kPresenceKeys +
                      "road side from_m to_m offset_m spacing_m share turn_deg part length_m "
-                     "width_m height_m");
+                     "width_m height_m above_m");
   RowSpec row;
   row.road = f.text("road", "");
   const std::string side = f.choice("side", "both", {"left", "right", "both"});
@@ -149,7 +153,7 @@ RowSpec read_row(const nlohmann::json& json, const std::string& where) {
 }
 
 PlaceSpec read_place(const nlohmann::json& json, const std::string& where) {
-  const Fields f(json, where, "part at yaw_deg length_m width_m height_m");
+  const Fields f(json, where, "part at yaw_deg length_m width_m height_m above_m");
   PlaceSpec place;
   const std::vector<double> at = f.numbers("at");
   if (at.size() != 2 || std::abs(at[0]) > kWorldReach || std::abs(at[1]) > kWorldReach) {

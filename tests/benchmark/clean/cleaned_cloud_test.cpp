@@ -102,4 +102,8 @@ TEST_CASE("The oracle's cloud is near perfect, and a shifted one is not") {
   CHECK(thin.points.size() < cloud.points.size());
   CHECK(score(scored, 1, thin).rate("SA").value() < 90.0);
   CHECK(score(scored, 0, thin).rate("PR").value() > 90.0);
+  // Nothing was removed, and the protocol that counts points loses some to the thinning.
+  const CleanedCloud whole = whole_cloud(scored.sequence(), 0.2, nullptr);
+  CHECK(score(scored, 0, whole).rate("RR") == 0.0);
+  CHECK(score(scored, 1, whole).rate("DA").value() > 10.0);
 }

@@ -69,12 +69,12 @@ TEST_CASE("PR against RR: every point is where its rates say") {
   const std::string svg = pr_rr_chart(two_points(), "erasor").svg();
   CHECK(is_well_formed(svg));
   // RR from 60 to 100 makes an axis from 50, PR from 90 an axis from 88; the plot's corner is at
-  // (56, 70) and it is 230 wide and high. So RR 60 is at 56 + 10 / 50 * 230 = 102, and PR 90 at
-  // 70 + 230 - 2 / 12 * 230 = 261.67. The first series has circles.
-  CHECK_THAT(svg, Contains("cx=\"102\" cy=\"261.67\" r=\"5\"><title>x on s: PR 90.000, RR 60.000, "
+  // (56, 70) and it is 460 wide and high. So RR 60 is at 56 + 10 / 50 * 460 = 148, and PR 90 at
+  // 70 + 460 - 2 / 12 * 460 = 453.33. The first series has circles.
+  CHECK_THAT(svg, Contains("cx=\"148\" cy=\"453.33\" r=\"5\"><title>x on s: PR 90.000, RR 60.000, "
                            "F1 0.7200</title>"));
-  // Squares of 8.8 pixels, here about the upper right corner at (286, 70).
-  CHECK_THAT(svg, Contains("points=\"281.6,65.6 290.4,65.6 290.4,74.4 281.6,74.4 \""));
+  // Squares of 8.8 pixels, here about the upper right corner at (516, 70).
+  CHECK_THAT(svg, Contains("points=\"511.6,65.6 520.4,65.6 520.4,74.4 511.6,74.4 \""));
   CHECK(svg.find("noop") == std::string::npos);
   CHECK(count(svg, "class=\"mark\"") == 2 + 3);  // Two points; the legend has the failed one too.
 }
@@ -97,8 +97,8 @@ TEST_CASE("What was said against what came true: each bin is where it says") {
 TEST_CASE("Lines of equal F1 go through the points that have it") {
   const std::string svg = pr_rr_chart(two_points(), "erasor").svg();
   // F1 0.9 where one rate is 100 and the other 90 * 100 / (200 - 90) = 81.818: at RR 81.818 the
-  // line leaves the plot at the top, 56 + 31.818 / 50 * 230 = 202.36.
-  CHECK_THAT(svg, Contains("class=\"iso\" points=\"202.36,70 "));
+  // line leaves the plot at the top, 56 + 31.818 / 50 * 460 = 348.73.
+  CHECK_THAT(svg, Contains("class=\"iso\" points=\"348.73,70 "));
   CHECK_THAT(svg, Contains(">0.9</text>"));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("Points of a sweep look alike and are joined") {
   RunResults results = two_points();
   results.sweeps = {{"x", "swept", {{"tau", "1"}}}, {"y", "swept", {{"tau", "2"}}}};
   const std::string svg = pr_rr_chart(results, "erasor").svg();
-  CHECK_THAT(svg, Contains("class=\"joined\" stroke=\"#0072B2\" points=\"102,261.67 286,70 \""));
+  CHECK_THAT(svg, Contains("class=\"joined\" stroke=\"#0072B2\" points=\"148,453.33 516,70 \""));
   CHECK(count(svg, "<circle") == 3);  // Two points and their legend.
 }
 
@@ -139,12 +139,13 @@ TEST_CASE("Stages stand one behind the other, and what has no name is told") {
 TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats") {
   const std::string svg = accuracy_time_chart(two_points(), "erasor").svg();
   CHECK(is_well_formed(svg));
-  // 500 and 100 ms: the axis runs from 10 to 1000 ms over 460 pixels from 64. F1 from 0.72 to 1
-  // makes an axis from 0.7; x is at 64 + 460 * (2.69897 - 1) / 2 = 454.76 and 48 + 330 - 0.02 / 0.3
-  // * 330 = 356.
-  CHECK_THAT(svg, Contains("cx=\"454.76\" cy=\"356\""));
+  // 500 and 100 ms: the axis runs from 10 to 1000 ms over 640 pixels from 64. F1 from 0.72 to 1
+  // makes an axis from 0.7; x is at 64 + 640 * (2.69897 - 1) / 2 = 607.67 and 48 + 340 - 0.02 / 0.3
+  // * 340 = 365.33.
+  CHECK_THAT(svg, Contains("cx=\"607.67\" cy=\"365.33\""));
   // y is faster and better: no other method is on the line.
-  CHECK_THAT(svg, Contains("class=\"front\" points=\"294,48 \""));
+  CHECK_THAT(svg, Contains("class=\"front\" points=\"384,48 \""));
+  CHECK_THAT(svg, Contains("Pareto line"));
 }
 
 TEST_CASE("Charts take any name, and the same results give the same bytes") {
@@ -207,7 +208,27 @@ TEST_CASE("Points of a sweep carry what they were set to, apart from each other"
   // Where both points are one, they share a text.
   results.cells[2].scores = results.cells[1].scores;
   CHECK_THAT(pr_rr_chart(results, "erasor").svg(), Contains(">0.1, 0.35</text>"));
-  CHECK(pr_rr_chart(two_points(), "erasor").svg().find("class=\"small\"") == std::string::npos);
+}
+
+TEST_CASE("One panel is large and has the methods' names, several have not") {
+  RunResults results = two_points();
+  CHECK(count(pr_rr_chart(results, "erasor").svg(), "class=\"small\"") == 2);
+  results.sequences.push_back("t");
+  CHECK(count(pr_rr_chart(results, "erasor").svg(), "class=\"small\"") == 0);
+}
+
+TEST_CASE("A stage has one colour in all bars") {
+  RunResults results = two_points();
+  results.times[1].stages = {{"read", 0.1}, {"cast", 0.2}};
+  const std::string svg = stage_chart(results).svg();
+  const auto colour_of = [&](const std::string& title) {
+    const std::size_t end = svg.find("<title>" + title);
+    REQUIRE(end != std::string::npos);
+    return svg.substr(svg.rfind("fill=\"", end), 14);
+  };
+  CHECK(colour_of("x, cast") == colour_of("y, cast"));
+  CHECK(colour_of("y, read") != colour_of("y, cast"));
+  CHECK(colour_of("x, other") == colour_of("y, other"));
 }
 
 TEST_CASE("Rates over a parameter: each point is where its value and its rate say") {

@@ -368,6 +368,59 @@ TEST_CASE("Of several topics of a kind one is to be named", "[bags]") {
   CHECK(position(open_sequence(path, options), 0).isApprox(Eigen::Vector3d(2, 0, 0), 1e-9));
 }
 
+/// Four clouds of each of two sensors, the rear one 50 ms later and 2 m behind, if tf has its
+/// place.
+std::string two_sensors(const TemporaryFolder& folder, const std::string& rear_frame = "rear",
+                        bool has_place = true) {
+  MadeBag bag(folder / "two.bag");
+  bag.odometry(100, shift(0), "front");
+  if (has_place) bag.tf(100, "front", "rear", shift(-2, 0, 0.5), "/tf_static");
+  for (int i = 0; i < 4; ++i) bag.cloud(100.1 + 0.2 * i, "front", "/a");
+  for (int i = 0; i < 4; ++i) bag.cloud(100.15 + 0.2 * i, rear_frame, "/b");
+  bag.odometry(101, shift(10), "front");
+  return bag.finish();
+}
+
+TEST_CASE("Several topics are the scans of several sensors, in order of time", "[bags]") {
+  const TemporaryFolder folder;
+  const std::string path = two_sensors(folder);
+  check_says(usage_error(path), {"several topics", "--topic /a,/b"});
+  SequenceOptions options;
+  options.topic = "/a,b";
+  const Sequence sequence = open_sequence(path, options);
+  REQUIRE(sequence.scans->size() == 8);
+  CHECK(sequence.topics == std::vector<std::size_t>{0, 1, 0, 1, 0, 1, 0, 1});
+  CHECK(position(sequence, 2).isApprox(Eigen::Vector3d(3, 0, 0), 1e-9));
+  CHECK(position(sequence, 3).isApprox(Eigen::Vector3d(1.5, 0, 0.5), 1e-9));
+  CHECK(sequence.stamps.at(3) == from_seconds(100.35));
+  const Scan scan = sequence.scans->load(3);
+  CHECK(scan.name == "000003");
+  CHECK(scan.time_s == Approx(0.25));
+  CHECK(scan.points.at(0) == Eigen::Vector3f(10, 100.35F, 1));
+  CHECK(sequence.records->place(3) == "two.bag: /b, message 1");
+  options.frames = parse_frame_range("::2");  // Of each topic.
+  CHECK(open_sequence(path, options).topics == std::vector<std::size_t>{0, 1, 0, 1});
+  options.topic = "/a,/a";
+  check_says(usage_error(path, options), {"names /a twice"});
+}
+
+TEST_CASE("Several topics need the place of each sensor", "[bags]") {
+  const TemporaryFolder folder;
+  SequenceOptions options;
+  options.topic = "/a,/b";
+  check_says(usage_error(two_sensors(folder, "rear", false), options),
+             {"no transform between 'front' and 'rear'", "one by one"});
+  const std::string path = two_sensors(folder, "front");
+  check_says(usage_error(path, options), {"are in one frame, 'front'", "topic:0=X,Y,Z/1=X,Y,Z"});
+  options.sensor_origin = parse_sensor_places("1,0,0");
+  check_says(usage_error(path, options), {"no place of topic 0", "topic:0=X,Y,Z/1=X,Y,Z"});
+  options.sensor_origin = parse_sensor_places("topic:0=1,0,0/1=-1,0,0.5");
+  const Sequence sequence = open_sequence(path, options);
+  CHECK(position(sequence, 0).isApprox(Eigen::Vector3d(2, 0, 0), 1e-9));
+  CHECK(position(sequence, 1).isApprox(Eigen::Vector3d(0.5, 0, 0.5), 1e-9));
+  CHECK(sequence.scans->load(1).points.at(0) == Eigen::Vector3f(11, 100.15F, 0.5F));
+}
+
 TEST_CASE("Frames that do not fit are errors that name them", "[bags]") {
   const TemporaryFolder folder;
   SequenceOptions options;

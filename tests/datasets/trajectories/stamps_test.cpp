@@ -81,6 +81,15 @@ TEST_CASE("names are times only if all of them look like times", "[trajectories]
     INFO(name);
     CHECK_FALSE(stamps_in_names({name}));
   }
+  for (const char* first : {"2011-09-30-12-08-26-400000", "2011_09_30_12_08_26.4",
+                            "20110930T120826.400", "vlp_2011-09-30T12:08:26.4Z"}) {
+    INFO(first);
+    const std::string second = std::string(first).replace(std::string(first).find("26"), 2, "27");
+    CHECK(read({second, first}) == Stamps{1317384507400000000, 1317384506400000000});
+  }
+  // The date of the recording, and the number of the scan.
+  CHECK_FALSE(stamps_in_names({"20110930_120826_000001", "20110930_120826_000002"}));
+  CHECK_FALSE(stamps_in_names({"20110930_120826_1", "20110930_120826_2"}));
   CHECK_FALSE(stamps_in_names({"1317384506.400000000", "000001"}));
   CHECK_FALSE(stamps_in_names({}));
   // The ninth and the tenth of a second are not one time.

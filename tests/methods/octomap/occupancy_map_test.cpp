@@ -77,8 +77,8 @@ void compare_with_library(const Parameters& parameters, int threads) {
 TEST_CASE("kept cells have the log-odds that insertPointCloud gives") {
   Parameters parameters;
   SECTION("0.2 m") {}
-  SECTION("0.05 m") {
-    parameters.resolution = 0.05;
+  SECTION("0.1 m") {
+    parameters.resolution = 0.1;
   }
   SECTION("beams cut") {
     parameters.maximum_range = 3.1;

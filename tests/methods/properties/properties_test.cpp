@@ -66,6 +66,7 @@ ConfiguredMethod configured(const std::string& variant) {
     set_parameter(method.configuration, "azimuth_bins", std::int64_t{0});
     set_parameter(method.configuration, "elevation_bins", std::int64_t{0});
   }
+  toy::coarsen_octomap(method);
   if (method.entry->name == "removert") coarsen_removert(method.configuration);
   if (method.entry->name == "hmm_mos") {  // Worlds are moved by whole numbers of 0.2 m.
     set_parameter(method.configuration, "voxel_size", 0.2);
