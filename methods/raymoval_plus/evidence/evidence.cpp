@@ -23,8 +23,9 @@ constexpr int kFewHits = 3;
 constexpr float kOpenWeight = 0.5F;
 /// A firm voxel is contradicted less than this.
 constexpr float kFirm = 0.1F;
-/// Presences that are so much alike may be of one thing, see `Presence::likeness`.
-constexpr double kLikeness = 0.3;
+/// The presences of two voxels of a thing begin and end so many scans apart, and this share of both
+/// together.
+constexpr double kEndsApart = 5.0, kEndsApartShare = 0.1;
 
 /// The tiles that any of the scans may say something of.
 std::vector<std::uint32_t> tiles_near(std::span<const PosedImage> images, double range,
@@ -135,74 +136,74 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
 
 namespace {
 
-/// The scans from the first to the last hit.
+/// The scans from the first to the last hit of a voxel, or of some voxels.
 struct Presence {
   std::uint32_t first, last;
-
-  /// The share of the scans of both that are common to both. Presences that just miss each other
-  /// have some.
-  [[nodiscard]] double likeness(const Presence& other) const {
-    const double common = kMissed + 1.0 + std::min(last, other.last) - std::max(first, other.first);
-    const double all = kMissed + 1.0 + std::max(last, other.last) - std::min(first, other.first);
-    return common / all;
-  }
-  static constexpr double kMissed = 2.0;  ///< Scans.
 };
 
-/// Calls `visit(cell)` for each cell at most `reach` cells away from one, along straight lines.
-template <class Visit>
-void for_cells_within(const VoxelIndex& cell, int reach, Visit&& visit) {
-  for (int z = -reach; z <= reach; ++z) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
-        if (x * x + y * y + z * z <= reach * reach) visit(VoxelIndex(cell + VoxelIndex(x, y, z)));
-      }
-    }
-  }
+/// Whether two voxels may be of one thing: its hits begin and end in nearly the same scans. A thing
+/// that turns, sways or comes into sight hits some of its voxels later than others.
+bool are_alike(const Presence& a, const Presence& b) {
+  const std::uint32_t begin = std::min(a.first, b.first), end = std::max(a.last, b.last);
+  const std::uint32_t later = std::max(a.first, b.first), sooner = std::min(a.last, b.last);
+  return (later - begin) + (end - sooner) <= kEndsApart + kEndsApartShare * (end - begin + 1);
 }
 
-/// The scans in which something was at or near a voxel: all hits of voxels around that were there
-/// at nearly the same time. A thing that turns or sways hits some voxels later and leaves others
-/// earlier than it came and went.
-Presence presence_around(std::uint32_t voxel, const EvidenceMap& map) {
-  const VoxelEvidence& evidence = map.evidence(voxel);
-  const Presence own{evidence.first_hit, evidence.last_hit};
-  const bool is_hit = evidence.hits > 0;
-  Presence all = own;
-  bool is_any = is_hit;
+/// Calls `visit(evidence)` for each voxel at most `reach_of_things` from one, itself included, that
+/// was hit and may be of the same thing. If no scan hit the voxel itself, all that were hit may be.
+template <class Visit>
+void for_voxels_of_thing(std::uint32_t voxel, const EvidenceMap& map, Visit&& visit) {
+  const VoxelEvidence& own = map.evidence(voxel);
+  const int reach = map.reach_of_things();
   EvidenceMap::Blocks::Cursor cursor;
-  for_cells_within(map.index(voxel), map.reach_of_things(), [&](const VoxelIndex& cell) {
+  const auto visit_cell = [&](const VoxelIndex& cell) {
     const std::size_t slot = map.find_slot(cell, cursor);
     if (slot == EvidenceMap::Blocks::kNoSlot) return;
     const std::uint32_t number = map.voxel_in(slot);
     if (number == EvidenceMap::kNone) return;
     const VoxelEvidence& other = map.evidence(number);
     const Presence its{other.first_hit, other.last_hit};
-    if (other.hits == 0 || (is_hit && own.likeness(its) < kLikeness)) return;
-    all = is_any ? Presence{std::min(all.first, its.first), std::max(all.last, its.last)} : its;
-    is_any = true;
+    if (other.hits == 0) return;
+    if (own.hits == 0 || are_alike({own.first_hit, own.last_hit}, its)) visit(other);
+  };
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        if (x * x + y * y + z * z > reach * reach) continue;
+        visit_cell(map.index(voxel) + VoxelIndex(x, y, z));
+      }
+    }
+  }
+}
+
+/// The scans in which the thing at a voxel was there.
+Presence presence_of_thing(std::uint32_t voxel, const EvidenceMap& map) {
+  Presence all{std::numeric_limits<std::uint32_t>::max(), 0};
+  for_voxels_of_thing(voxel, map, [&](const VoxelEvidence& some) {
+    all = {std::min(all.first, some.first_hit), std::max(all.last, some.last_hit)};
   });
-  return is_any ? all : Presence{std::numeric_limits<std::uint32_t>::max(), 0};
+  return all;
 }
 
 float passes_outside(std::uint32_t voxel, const EvidenceMap& map) {
+  constexpr std::size_t kKept = VoxelEvidence::kPasses;
   const VoxelEvidence& evidence = map.evidence(voxel);
-  float open = 0.0F;
+  const std::size_t before = std::min<std::size_t>(evidence.passes_before, kKept);
+  const std::size_t after = std::min<std::size_t>(evidence.passes_after, kKept);
+  float passes = 0.0F;
   if (evidence.hits <= kFewHits) {
-    open = kOpenWeight * static_cast<float>(evidence.open_before + evidence.open_after);
+    passes = kOpenWeight * static_cast<float>(evidence.open_before + evidence.open_after);
   }
-  constexpr auto kMost = static_cast<float>(VoxelEvidence::kPasses);
-  if (evidence.passes_before + evidence.passes_after == 0) return std::min(open, kMost);
-  const Presence presence = presence_around(voxel, map);
-  std::size_t outside = 0;
-  for (std::size_t n = 0; n < std::min<std::size_t>(evidence.passes_before, VoxelEvidence::kPasses); ++n) {
-    const std::uint32_t scan = evidence.first_passes[n];
-    if (scan < presence.first || scan > presence.last) ++outside;
+  if (before + after > 0) {
+    const auto [first, last] = presence_of_thing(voxel, map);
+    const auto is_outside = [first = first, last = last](std::uint32_t scan) {
+      return scan < first || scan > last;
+    };
+    passes += static_cast<float>(
+        std::count_if(evidence.first_passes.begin(), evidence.first_passes.begin() + before, is_outside) +
+        std::count_if(evidence.last_passes.begin(), evidence.last_passes.begin() + after, is_outside));
   }
-  for (std::size_t n = 0; n < std::min<std::size_t>(evidence.passes_after, VoxelEvidence::kPasses); ++n) {
-    if (evidence.last_passes[n] > presence.last) ++outside;
-  }
-  return std::min(static_cast<float>(outside) + open, kMost);
+  return std::min(passes, static_cast<float>(kKept));
 }
 
 }  // namespace
@@ -216,6 +217,16 @@ void find_passes_outside(const std::vector<std::uint32_t>& voxels, const RunCont
                       map.evidence(voxels[i]).passes_outside = passes_outside(voxels[i], map);
                     }
                   });
+}
+
+float passes_of_thing(std::uint32_t voxel, const EvidenceMap& map) {
+  float passes = 0.0F;
+  int voxels = 0;
+  for_voxels_of_thing(voxel, map, [&](const VoxelEvidence& some) {
+    passes += some.passes_outside;
+    ++voxels;
+  });
+  return passes / static_cast<float>(std::max(voxels, 1));
 }
 
 float contradiction(const VoxelEvidence& evidence) {

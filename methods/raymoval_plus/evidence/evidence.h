@@ -64,11 +64,12 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
 /// be told.
 [[nodiscard]] float contradiction(const VoxelEvidence& evidence);
 
-/// Finds `VoxelEvidence::passes_outside` of some voxels: the passes before the first and after the
-/// last hit of all voxels within `reach_of_things` that were there at nearly the same time. What
-/// stands has next to none; a voxel's own passes are also of beams that pass beside its points.
+/// Finds `VoxelEvidence::passes_outside` of some voxels. What stands has next to none; the passes
+/// that a voxel alone counts are also of beams beside its points.
 void find_passes_outside(const std::vector<std::uint32_t>& voxels, const RunContext& context,
                          EvidenceMap& map);
+/// The mean of `passes_outside` over the voxels of the thing near one of them.
+[[nodiscard]] float passes_of_thing(std::uint32_t voxel, const EvidenceMap& map);
 
 /// Whether many scans hit a voxel and next to none contradicts it.
 [[nodiscard]] bool is_firm(const VoxelEvidence& evidence);

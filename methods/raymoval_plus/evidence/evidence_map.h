@@ -29,8 +29,8 @@ struct VoxelEvidence {
   /// The numbers of the first scans that passed before the first hit, and of the last ones that
   /// passed after the last hit; of the latter, pass number n is at n % kPasses.
   std::array<std::uint32_t, kPasses> first_passes{}, last_passes{};
-  /// Scans that passed while nothing near the voxel was there, at most kPasses; see
-  /// `find_passes_outside`.
+  /// Scans that passed before or after the thing at the voxel was there, at most kPasses. The voxels
+  /// of a thing are those within `reach_of_things` that were there at nearly the same time.
   float passes_outside = 0.0F;
 };
 

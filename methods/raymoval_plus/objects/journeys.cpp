@@ -201,7 +201,6 @@ void judge(const Track& track, const Parameters& parameters, Findings& findings)
   for (std::size_t k = 0; k < track.nodes.size(); ++k) {
     const auto& [scan, object] = track.nodes[k];
     if (is_dynamic(object, parameters)) continue;
-    if (stood_always(object, parameters)) continue;
     if (belongs(track, k, *journey, parameters)) {
       findings.marked[scan].push_back(object.cluster);
       continue;

@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/objects/objects.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
@@ -15,6 +16,15 @@ namespace {
 constexpr std::size_t kFewPoints = 8;
 /// A cluster of which no larger share of the points is dynamic is static.
 constexpr double kHardlyDynamic = 0.1;
+/// A point stands if so many scans hit its voxel, and fewer passes than this a voxel tell that the
+/// thing there came or left. If this share of a dynamic cluster stands, it is a thing beside another.
+constexpr int kStandingHits = 10;
+constexpr float kStandingPasses = 0.2F;
+constexpr double kStandingShare = 0.5;
+/// A static cluster of so many points may hold something that moves: points that are dynamic and
+/// with them so many passes a voxel.
+constexpr int kLargeCluster = 1000;
+constexpr float kMovingPasses = 2.0F;
 
 /// Calls `visit(point, cluster)` for each point that is in a cluster.
 template <class Visit>
@@ -79,6 +89,39 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
     follow[c] = scan.clusters[c].points >= parameters.track_points && !too_wide ? 1 : 0;
   }
   return follow;
+}
+
+/// Whether a point is of something that stands.
+bool stands(std::uint32_t k, const SegmentedScan& scan, const EvidenceMap& map) {
+  if (!scan.has_standing_voxel(k)) return false;
+  const VoxelEvidence& evidence = map.evidence(scan.voxel[k]);
+  return evidence.hits >= kStandingHits && evidence.passes_outside < 1.0F &&
+         passes_of_thing(scan.voxel[k], map) < kStandingPasses;
+}
+
+/// The points of things that stand and were clustered with something that goes.
+/// @param go 1 for each cluster that goes
+std::vector<std::uint32_t> standing_beside(const SegmentedScan& scan, const EvidenceMap& map,
+                                           const std::vector<std::uint8_t>& go) {
+  std::vector<std::pair<std::uint32_t, std::size_t>> found;
+  std::vector<int> count(go.size(), 0);
+  for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
+    if (go[cluster] == 0 || !stands(k, scan, map)) return;
+    found.emplace_back(k, cluster);
+    ++count[cluster];
+  });
+  std::vector<std::uint32_t> points;
+  for (const auto& [k, cluster] : found) {
+    if (count[cluster] >= kStandingShare * scan.clusters[cluster].points) points.push_back(k);
+  }
+  return points;
+}
+
+/// Whether a point is of something that moves beside what a static cluster is else.
+bool moves_inside(std::uint32_t k, const Cluster& cluster, const SegmentedScan& scan,
+                  const EvidenceMap& map) {
+  return cluster.points >= kLargeCluster && scan.verdict[k] == Verdict::kDynamic &&
+         scan.has_standing_voxel(k) && passes_of_thing(scan.voxel[k], map) >= kMovingPasses;
 }
 
 /// Lets fragments go with what goes beside them.
@@ -168,7 +211,8 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
 }
 
 Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
-                        const Parameters& parameters, const RunContext& context) {
+                        const EvidenceMap& map, const Parameters& parameters,
+                        const RunContext& context) {
   if (!parameters.objects) return scan.verdict;
   const StageScope timed(context.times, "objects");
   std::vector<std::uint8_t> go(scan.clusters.size(), 0), stay(scan.clusters.size(), 0);
@@ -182,10 +226,11 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
   for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
     if (go[cluster] != 0) {
       verdict[k] = Verdict::kDynamic;
-    } else if (stay[cluster] != 0) {
+    } else if (stay[cluster] != 0 && !moves_inside(k, scan.clusters[cluster], scan, map)) {
       verdict[k] = Verdict::kStatic;
     }
   });
+  for (const std::uint32_t k : standing_beside(scan, map, go)) verdict[k] = Verdict::kStatic;
   add_fragments(scan, go, parameters, verdict);
   return verdict;
 }
