@@ -68,7 +68,7 @@ class Answers {
   }
   void segment(Scan scan, SegmentedScan& segmented) const {
     locate(std::move(scan), segmented);
-    find_clusters(parameters_, of_scan_, segmented);                    // 6
+    find_clusters(parameters_, of_scan_, segmented);    // 6
     add_evidence_of_points(maps_.standing, segmented);  // 6
   }
 
@@ -76,8 +76,7 @@ class Answers {
     const std::size_t index = scan.index;
     workspaces_.with_one([&](SegmentedScan& segmented) {
       segment(std::move(scan), segmented);
-      objects_[index] =
-          summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
+      objects_[index] = summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
       Verdicts verdicts =
           decide_objects(segmented, {}, maps_.standing, parameters_, of_scan_);  // 6
       decide_low_points(segmented, maps_, parameters_, of_scan_, verdicts);      // 8

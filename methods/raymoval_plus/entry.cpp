@@ -32,7 +32,8 @@ MethodEntry raymoval_plus_entry() {
   entry.main_parameters = {"voxel_contradiction", "object_passes", "vote_share",
                            "evidence_range_max", "voxel_size"};
   entry.advice =
-      "If too much is removed, raise voxel_contradiction, object_passes or vote_share. If too little "
+      "If too much is removed, raise voxel_contradiction, object_passes or vote_share. If too "
+      "little "
       "is removed, lower them; if far objects stay, raise evidence_range_max.";
   // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
   // voxels around have to be dynamic.

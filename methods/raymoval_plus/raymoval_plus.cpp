@@ -11,6 +11,7 @@
 #include "methods/common/side_by_side.h"
 #include "methods/raymoval_plus/answers.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
+#include "methods/raymoval_plus/evidence/things.h"
 #include "methods/raymoval_plus/evidence/vote.h"
 #include "methods/raymoval_plus/objects/objects.h"
 #include "methods/raymoval_plus/objects/reasons.h"
@@ -132,7 +133,7 @@ class Run {
       decide_all(parameters_, context_, *map);
       vote(parameters_, context_, *map);
     }
-    std::vector<std::uint32_t> all(maps_.standing.size());
+    std::vector<std::uint32_t> all(maps_.standing.blocks().block_count());
     std::iota(all.begin(), all.end(), 0U);
     find_passes_outside(all, context_, maps_.standing);
   }
@@ -173,8 +174,8 @@ class Run {
   void add_arrived(LocatedScan& located, WhenToDecide when) {
     const auto known = maps_.sizes();
     const PosedImage posed{&image_, located.scan.T_world_sensor.translation(), located.scan.index};
-    add_to_maps(parameters_, context_, located, maps_);                  // 2
-    ask_earlier_scans(known, posed.position, when);  // 3, 4
+    add_to_maps(parameters_, context_, located, maps_);  // 2
+    ask_earlier_scans(known, posed.position, when);      // 3, 4
     for (EvidenceMap* const map : maps_.both()) {
       add_evidence(std::span(&posed, 1), parameters_, when, context_, *map);  // 3, 4
     }
@@ -208,8 +209,8 @@ class Run {
     vote(blocks, parameters_, context_, maps_.standing);                                    // 5
     vote(blocks_of(scan.ground_voxel, maps_.ground), parameters_, context_, maps_.ground);  // 5
     look_up_verdicts(maps_, context_, scan);
-    find_passes_outside(voxels_of(blocks, maps_.standing), context_, maps_.standing);  // 6
-    add_evidence_of_points(maps_.standing, scan);                                     // 6
+    find_passes_outside(blocks, context_, maps_.standing);  // 6
+    add_evidence_of_points(maps_.standing, scan);           // 6
     recent.take(scan, maps_.standing, context_);
     recent.judge(maps_.standing, context_);
     answer(scan, recent.marked(scan.scan.index, context_), maps_, parameters_, sink_,

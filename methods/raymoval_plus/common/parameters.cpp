@@ -71,9 +71,10 @@ void add_evidence(Lines& table) {
   table.number("pass_distance", &P::pass_distance, "m", 0, 5,
                "A beam that crosses a voxel and ends farther behind it than this passes it; 5 mm "
                "more for each metre of range.");
-  table.number("voxel_contradiction", &P::voxel_contradiction, "", kMoreThanNone, 1,
-               "A voxel is dynamic if scans that pass it before its first or after its last hit are "
-               "this share of these and up to ten hits.");
+  table.number(
+      "voxel_contradiction", &P::voxel_contradiction, "", kMoreThanNone, 1,
+      "A voxel is dynamic if scans that pass it before its first or after its last hit are "
+      "this share of these and up to ten hits.");
   table.flag("ground_evidence", &P::ground_evidence,
              "Also collect evidence for ground; else it is always kept.", kTerrain);
   table.integer("vote_radius", &P::vote_radius, "voxels", 0, 8,
@@ -88,17 +89,19 @@ void add_objects(Lines& table) {
                "A cluster is dynamic if so many scans a point pass where it is before anything is "
                "there or after it left.",
                kObjects);
-  table.number("object_contradiction", &P::object_contradiction, "", 0, 1,
-               "A cluster with a fifth of a pass a point is dynamic from this mean contradiction of "
-               "its voxels on.",
-               kObjects);
+  table.number(
+      "object_contradiction", &P::object_contradiction, "", 0, 1,
+      "A cluster with a fifth of a pass a point is dynamic from this mean contradiction of "
+      "its voxels on.",
+      kObjects);
   table.integer("object_points", &P::object_points, "points", 1, 1000,
                 "Points that a dynamic cluster needs. A cluster of at most this many points is "
                 "removed with a larger one beside it.",
                 kObjects);
-  table.number("cluster_gap", &P::cluster_gap, "m", 0.05, 5,
-               "Distance that joins points to a cluster; 1 cm more for each metre of range. A point "
-               "without another within a third of this is a lone drop.");
+  table.number(
+      "cluster_gap", &P::cluster_gap, "m", 0.05, 5,
+      "Distance that joins points to a cluster; 1 cm more for each metre of range. A point "
+      "without another within a third of this is a lone drop.");
   table.flag("tracks", &P::tracks, "Track dynamic clusters over scans.", kObjects);
   table.number(
       "track_width", &P::track_width, "m", 0, 100,

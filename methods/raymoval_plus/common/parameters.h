@@ -5,8 +5,8 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// The parameters of raymoval_plus. Their units, ranges and meanings are in `parameter_table()`; the
-/// constants among them are the same in every run.
+/// The parameters of raymoval_plus. Their units, ranges and meanings are in `parameter_table()`;
+/// the constants among them are the same in every run.
 struct Parameters {
   // When to answer.
   bool at_once = false;

@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "core/parallel.h"
-#include "methods/raymoval_plus/common/point_kernels.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -30,22 +29,23 @@ void find_cells(const Scan& scan, const Eigen::Vector3d& cells_a_metre, BesideCe
   const bool with_height = beside == BesideCells::kPartsAndHeight;
   cells.parts.resize(points);
   if (with_height) cells.height.resize(points);
-  kernels::PointsToCells whole;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(whole.rotation.data()) =
-      scan.T_world_sensor.linear();
-  Eigen::Map<Eigen::Vector3d>(whole.translation.data()) = scan.T_world_sensor.translation();
-  Eigen::Map<Eigen::Vector3d>(whole.cells_a_metre.data()) = cells_a_metre;
-  whole.limit = kVoxelLimit;
-  const kernels::PointKernels kernels = kernels::best_point_kernels();
   std::atomic<bool> inside = true;
   parallel_chunks(threads, points, kPointsATask, [&](std::size_t begin, std::size_t end) {
-    kernels::PointsToCells job = whole;
-    job.points = scan.points[begin].data();
-    job.count = end - begin;
-    const kernels::PointCells to{cells.x.data() + begin, cells.y.data() + begin,
-                                 cells.z.data() + begin, cells.parts.data() + begin,
-                                 with_height ? cells.height.data() + begin : nullptr};
-    if (!kernels.find_cells(job, to)) inside = false;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Eigen::Vector3d world = scan.T_world_sensor * scan.points[k].cast<double>();
+      const Eigen::Array3d in_cells = world.cwiseProduct(cells_a_metre), cell = in_cells.floor();
+      if (!(cell.abs() <= kVoxelLimit).all()) {
+        inside = false;
+        return;
+      }
+      const Eigen::Array3i parts = ((in_cells - cell) * 256.0).min(255.0).cast<int>();
+      const Eigen::Array3i number = cell.cast<int>();
+      cells.x[k] = number.x();
+      cells.y[k] = number.y();
+      cells.z[k] = number.z();
+      cells.parts[k] = static_cast<std::uint32_t>(parts.x() | parts.y() << 8 | parts.z() << 16);
+      if (with_height) cells.height[k] = static_cast<float>(world.z());
+    }
   });
   if (!inside) throw_outside(scan, cells_a_metre);
 }

@@ -30,7 +30,8 @@ constexpr float kLeastGap = 0.1F, kMostGap = 1.5F;
 float arc_tangent(float y, float x) {
   const float a = std::abs(x), b = std::abs(y), most = std::max(a, b);
   const float q = most > 0.0F ? std::min(a, b) / most : 0.0F, s = q * q;
-  float angle = q * (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
+  float angle =
+      q * (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
   angle = b > a ? 0.5F * kPi - angle : angle;
   angle = x < 0.0F ? kPi - angle : angle;
   return y < 0.0F ? -angle : angle;
@@ -45,12 +46,15 @@ BeamImage::BeamImage(const SensorModel& sensor, const Parameters& parameters)
       pass_(static_cast<float>(parameters.pass_distance)),
       nearest_(static_cast<float>(parameters.minimum_range)) {
   const double width = sensor.azimuth_step > 0.0 ? sensor.azimuth_step : kUnknownStep;
-  const double height = std::max(sensor.elevation_step > 0.0 ? 0.5 * sensor.elevation_step : kUnknownStep, kLeastRow);
-  columns_ = static_cast<int>(std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
+  const double height =
+      std::max(sensor.elevation_step > 0.0 ? 0.5 * sensor.elevation_step : kUnknownStep, kLeastRow);
+  columns_ = static_cast<int>(
+      std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
   azimuth_step_ = 2.0F * kPi / static_cast<float>(columns_);
   const double low = std::max(sensor.elevation_min - kMarginRows * height, -std::numbers::pi / 2.0);
   const double high = std::min(sensor.elevation_max + kMarginRows * height, std::numbers::pi / 2.0);
-  rows_ = static_cast<int>(std::clamp(std::ceil((high - low) / height), 1.0, static_cast<double>(kMostBins / columns_)));
+  rows_ = static_cast<int>(
+      std::clamp(std::ceil((high - low) / height), 1.0, static_cast<double>(kMostBins / columns_)));
   elevation_step_ = static_cast<float>((high - low) / rows_);
   lowest_ = static_cast<float>(low);
   block_columns_ = (columns_ >> kBlockShift) + 1;
@@ -85,7 +89,8 @@ void BeamImage::fill(const Scan& scan) {
     if (bin_of_[k] < 0) continue;
     const float range = scan.points[k].norm();
     const Eigen::Vector3f direction = R_world_sensor * scan.points[k] / range;
-    beams_[--first_[static_cast<std::size_t>(bin_of_[k]) + 1]] = {direction.x(), direction.y(), direction.z(), range, static_cast<std::uint32_t>(k)};
+    beams_[--first_[static_cast<std::size_t>(bin_of_[k]) + 1]] = {
+        direction.x(), direction.y(), direction.z(), range, static_cast<std::uint32_t>(k)};
   }
   // Now `first_[b + 1]` is the first beam of bin b.
   for (std::size_t b = 0; b + 1 < first_.size(); ++b) first_[b] = first_[b + 1];
@@ -95,8 +100,12 @@ void BeamImage::fill(const Scan& scan) {
 
 void BeamImage::find_extensions(std::vector<Extension>& extensions) const {
   extensions.clear();
-  const auto position = [](const Beam& b) { return Eigen::Vector3f(b.x * b.range, b.y * b.range, b.z * b.range); };
-  const auto wrapped = [&](int c) { return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c; };
+  const auto position = [](const Beam& b) {
+    return Eigen::Vector3f(b.x * b.range, b.y * b.range, b.z * b.range);
+  };
+  const auto wrapped = [&](int c) {
+    return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
+  };
   static constexpr int kStepRow[4] = {1, -1, 0, 0}, kStepColumn[4] = {0, 0, 1, -1};
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < columns_; ++c) {
@@ -117,7 +126,8 @@ void BeamImage::find_extensions(std::vector<Extension>& extensions) const {
               const Eigen::Vector3f offset = position(others.front()) - p;
               const float deeper = std::abs(others.front().range - beam.range);
               const float aside = std::sqrt(std::max(offset.squaredNorm() - deeper * deeper, 0.0F));
-              if (aside < kLeastGap || aside > kMostGap || deeper > std::min(aside + 0.2F, 1.0F)) break;
+              if (aside < kLeastGap || aside > kMostGap || deeper > std::min(aside + 0.2F, 1.0F))
+                break;
               extensions.push_back({beam.point, offset / 3.0F});
             }
           }
@@ -128,26 +138,38 @@ void BeamImage::find_extensions(std::vector<Extension>& extensions) const {
 }
 
 void BeamImage::find_farthest() {
-  farthest_.assign(static_cast<std::size_t>((rows_ >> kBlockShift) + 1) * static_cast<std::size_t>(block_columns_), 0.0F);
+  farthest_.assign(static_cast<std::size_t>((rows_ >> kBlockShift) + 1) *
+                       static_cast<std::size_t>(block_columns_),
+                   0.0F);
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < columns_; ++c) {
-      float& farthest = farthest_[static_cast<std::size_t>((r >> kBlockShift) * block_columns_ + (c >> kBlockShift))];
+      float& farthest = farthest_[static_cast<std::size_t>((r >> kBlockShift) * block_columns_ +
+                                                           (c >> kBlockShift))];
       for (const Beam& beam : beams(r, c, c)) farthest = std::max(farthest, beam.range);
     }
   }
 }
 
-std::span<const BeamImage::Beam> BeamImage::beams(int row, int first_column, int last_column) const {
-  const auto bin = [&](int column) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column); };
+std::span<const BeamImage::Beam> BeamImage::beams(int row, int first_column,
+                                                  int last_column) const {
+  const auto bin = [&](int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  };
   const std::uint32_t begin = first_[bin(first_column)], end = first_[bin(last_column) + 1];
   return {beams_.data() + begin, end - begin};
 }
 
-bool BeamImage::is_hidden(int first_row, int last_row, int first_column, int last_column, float range) const {
-  const auto wrapped = [&](int c) { return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c; };
+bool BeamImage::is_hidden(int first_row, int last_row, int first_column, int last_column,
+                          float range) const {
+  const auto wrapped = [&](int c) {
+    return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
+  };
   for (int r = first_row >> kBlockShift; r <= last_row >> kBlockShift; ++r) {
-    for (int c = first_column; ; c = std::min(c + (1 << kBlockShift), last_column)) {
-      if (farthest_[static_cast<std::size_t>(r * block_columns_ + (wrapped(c) >> kBlockShift))] >= range) return false;
+    for (int c = first_column;; c = std::min(c + (1 << kBlockShift), last_column)) {
+      if (farthest_[static_cast<std::size_t>(r * block_columns_ + (wrapped(c) >> kBlockShift))] >=
+          range)
+        return false;
       if (c == last_column) break;
     }
   }
@@ -155,7 +177,9 @@ bool BeamImage::is_hidden(int first_row, int last_row, int first_column, int las
 }
 
 bool BeamImage::is_open(float row, float column, float range) const {
-  const auto wrapped = [&](int c) { return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c; };
+  const auto wrapped = [&](int c) {
+    return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
+  };
   const int c0 = static_cast<int>(std::floor(column)), r0 = static_cast<int>(std::floor(row));
   bool above = false, below = false;
   for (int r = std::max(r0 - 2, 0); r <= std::min(r0 + 2, rows_ - 1); ++r) {
@@ -175,7 +199,8 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
   observed.clear();
   const Eigen::Vector3f from = (origin - position_).cast<float>();
   for (std::size_t v = 0; v < shapes.size(); ++v) {
-    const Eigen::Vector3f m = from + Eigen::Vector3f(places[3 * v], places[3 * v + 1], places[3 * v + 2]);
+    const Eigen::Vector3f m =
+        from + Eigen::Vector3f(places[3 * v], places[3 * v + 1], places[3 * v + 2]);
     const float square = m.squaredNorm();
     if (square < range_min_ * range_min_ || square > range_max_ * range_max_) continue;
     const float range = std::sqrt(square);
@@ -188,7 +213,8 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
     const int row0 = std::max(static_cast<int>(std::floor(row - high)), 0);
     const int row1 = std::min(static_cast<int>(std::floor(row + high)), rows_ - 1);
     const float column = azimuth_bin(s);
-    const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_, 0.25F * static_cast<float>(columns_));
+    const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_,
+                                0.25F * static_cast<float>(columns_));
     const int column0 = static_cast<int>(std::floor(column - wide));
     const int column1 = static_cast<int>(std::floor(column + wide));
     const auto slope = static_cast<float>(Parameters::distance_slope);
@@ -209,14 +235,17 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
       for (const Beam& b : some) {
         if (b.range < range - hit - shape.radius) continue;
         const float along = b.x * w.x() + b.y * w.y() + b.z * w.z();
-        const float norm = shape.xx * b.x * b.x + shape.yy * b.y * b.y + shape.zz * b.z * b.z +
-                           2.0F * (shape.xy * b.x * b.y + shape.xz * b.x * b.z + shape.yz * b.y * b.z);
+        const float norm =
+            shape.xx * b.x * b.x + shape.yy * b.y * b.y + shape.zz * b.z * b.z +
+            2.0F * (shape.xy * b.x * b.y + shape.xz * b.x * b.z + shape.yz * b.y * b.z);
         const float aside = away - along * along / norm;
         if (aside > kMeets) continue;
         is_crossed = true;
         const float behind = b.range - along / norm;
-        if (std::abs(behind) <= hit) is_hit = true;
-        else if (behind > pass && aside <= kCrosses && ends_behind(b)) is_passed = true;
+        if (std::abs(behind) <= hit)
+          is_hit = true;
+        else if (behind > pass && aside <= kCrosses && ends_behind(b))
+          is_passed = true;
       }
     };
     for (int r = row0; r <= row1 && !is_hit; ++r) {
@@ -230,10 +259,14 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
         test(beams(r, column0, column1));
       }
     }
-    if (!is_crossed && range <= kFarther * shape.nearest && 2.0F * elevation_step_ * range > kRowGap) {
-      if (is_open(row, column, range + pass)) observed.push_back({static_cast<std::uint32_t>(v), Observation::kOpen, range});
+    if (!is_crossed && range <= kFarther * shape.nearest &&
+        2.0F * elevation_step_ * range > kRowGap) {
+      if (is_open(row, column, range + pass))
+        observed.push_back({static_cast<std::uint32_t>(v), Observation::kOpen, range});
     }
-    if (is_hit || is_passed) observed.push_back({static_cast<std::uint32_t>(v), is_hit ? Observation::kHit : Observation::kPassed, range});
+    if (is_hit || is_passed)
+      observed.push_back({static_cast<std::uint32_t>(v),
+                          is_hit ? Observation::kHit : Observation::kPassed, range});
   }
 }
 

@@ -19,7 +19,8 @@ enum class Observation : std::uint8_t { kUnknown, kHit, kPassed, kOpen };
 struct VoxelShape {
   float xx = 0.0F, yy = 0.0F, zz = 0.0F, xy = 0.0F, xz = 0.0F, yz = 0.0F;
   float nearest = 0.0F;  ///< Range from which it was seen at least, metres.
-  /// Of a flat voxel: the normal, and how far behind its plane a beam must end to pass, metres; 0 for others.
+  /// Of a flat voxel: the normal, and how far behind its plane a beam must end to pass, metres; 0
+  /// for others.
   float nx = 0.0F, ny = 0.0F, nz = 0.0F, behind = 0.0F;
   float radius = 0.0F;  ///< At most one standard deviation in any direction, metres.
 };
@@ -31,17 +32,18 @@ struct ObservedVoxel {
   float range;  ///< Metres from the sensor.
 };
 
-/// Step 3: the beams of a scan, sorted by direction, and the test of voxels against those that cross
-/// them.
+/// Step 3: the beams of a scan, sorted by direction, and the test of voxels against those that
+/// cross them.
 class BeamImage {
  public:
   BeamImage(const SensorModel& sensor, const Parameters& parameters);
 
   /// Replaces the beams with those of `scan`.
   void fill(const Scan& scan);
-  /// Replaces `observed` with the voxels that the scan hits or passes through, in ascending order. A
-  /// beam crosses a voxel if it comes within one standard deviation of the voxel's points. It hits
-  /// the voxel if it ends there, and passes if it ends well behind. One hit outweighs all passes.
+  /// Replaces `observed` with the voxels that the scan hits or passes through, in ascending order.
+  /// A beam crosses a voxel if it comes within one standard deviation of the voxel's points. It
+  /// hits the voxel if it ends there, and passes if it ends well behind. One hit outweighs all
+  /// passes.
   /// @param places x y z of the voxels' means from `origin`, axes of the world, metres
   /// @param shapes one for each place
   /// @param origin world frame, metres
@@ -57,7 +59,9 @@ class BeamImage {
   /// at about the same range, in order of points.
   void find_extensions(std::vector<Extension>& extensions) const;
   /// The number of bins.
-  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_); }
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_);
+  }
 
  private:
   struct Bin {

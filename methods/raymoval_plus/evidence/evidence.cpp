@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/parallel.h"
@@ -19,13 +18,8 @@ constexpr std::size_t kVoxelsATask = 256;
 constexpr int kMostHits = 10;
 /// With so few hits, what is open around a voxel counts as passing it.
 constexpr int kFewHits = 3;
-/// What is open counts so much of what passes.
-constexpr float kOpenWeight = 0.5F;
 /// A firm voxel is contradicted less than this.
 constexpr float kFirm = 0.1F;
-/// The presences of two voxels of a thing begin and end so many scans apart, and this share of both
-/// together.
-constexpr double kEndsApart = 5.0, kEndsApartShare = 0.1;
 
 /// The tiles that any of the scans may say something of.
 std::vector<std::uint32_t> tiles_near(std::span<const PosedImage> images, double range,
@@ -57,7 +51,8 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
       for (const ObservedVoxel& voxel : observed) {
         VoxelEvidence& evidence = tile.evidence[voxel.place];
         add_observation(voxel.observation, scan, evidence);
-        if (when == WhenToDecide::kNow) map.set_decision(tile.voxels[voxel.place], decide(evidence, parameters));
+        if (when == WhenToDecide::kNow)
+          map.set_decision(tile.voxels[voxel.place], decide(evidence, parameters));
       }
     }
   });
@@ -87,7 +82,8 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
     for (const EarlierScan& scan : kept_) {
       scan.image.observe(places, shapes, center, observed);
       for (const ObservedVoxel& voxel : observed) {
-        add_observation(voxel.observation, scan.number, map.evidence(first_voxel + begin + voxel.place));
+        add_observation(voxel.observation, scan.number,
+                        map.evidence(first_voxel + begin + voxel.place));
       }
     }
   });
@@ -134,104 +130,13 @@ void add_observation(Observation observation, std::size_t scan, VoxelEvidence& e
   }
 }
 
-namespace {
-
-/// The scans from the first to the last hit of a voxel, or of some voxels.
-struct Presence {
-  std::uint32_t first, last;
-};
-
-/// Whether two voxels may be of one thing: its hits begin and end in nearly the same scans. A thing
-/// that turns, sways or comes into sight hits some of its voxels later than others.
-bool are_alike(const Presence& a, const Presence& b) {
-  const std::uint32_t begin = std::min(a.first, b.first), end = std::max(a.last, b.last);
-  const std::uint32_t later = std::max(a.first, b.first), sooner = std::min(a.last, b.last);
-  return (later - begin) + (end - sooner) <= kEndsApart + kEndsApartShare * (end - begin + 1);
-}
-
-/// Calls `visit(evidence)` for each voxel at most `reach_of_things` from one, itself included, that
-/// was hit and may be of the same thing. If no scan hit the voxel itself, all that were hit may be.
-template <class Visit>
-void for_voxels_of_thing(std::uint32_t voxel, const EvidenceMap& map, Visit&& visit) {
-  const VoxelEvidence& own = map.evidence(voxel);
-  const int reach = map.reach_of_things();
-  EvidenceMap::Blocks::Cursor cursor;
-  const auto visit_cell = [&](const VoxelIndex& cell) {
-    const std::size_t slot = map.find_slot(cell, cursor);
-    if (slot == EvidenceMap::Blocks::kNoSlot) return;
-    const std::uint32_t number = map.voxel_in(slot);
-    if (number == EvidenceMap::kNone) return;
-    const VoxelEvidence& other = map.evidence(number);
-    const Presence its{other.first_hit, other.last_hit};
-    if (other.hits == 0) return;
-    if (own.hits == 0 || are_alike({own.first_hit, own.last_hit}, its)) visit(other);
-  };
-  for (int z = -reach; z <= reach; ++z) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
-        if (x * x + y * y + z * z > reach * reach) continue;
-        visit_cell(map.index(voxel) + VoxelIndex(x, y, z));
-      }
-    }
-  }
-}
-
-/// The scans in which the thing at a voxel was there.
-Presence presence_of_thing(std::uint32_t voxel, const EvidenceMap& map) {
-  Presence all{std::numeric_limits<std::uint32_t>::max(), 0};
-  for_voxels_of_thing(voxel, map, [&](const VoxelEvidence& some) {
-    all = {std::min(all.first, some.first_hit), std::max(all.last, some.last_hit)};
-  });
-  return all;
-}
-
-float passes_outside(std::uint32_t voxel, const EvidenceMap& map) {
-  constexpr std::size_t kKept = VoxelEvidence::kPasses;
-  const VoxelEvidence& evidence = map.evidence(voxel);
-  const std::size_t before = std::min<std::size_t>(evidence.passes_before, kKept);
-  const std::size_t after = std::min<std::size_t>(evidence.passes_after, kKept);
-  float passes = 0.0F;
-  if (evidence.hits <= kFewHits) {
-    passes = kOpenWeight * static_cast<float>(evidence.open_before + evidence.open_after);
-  }
-  if (before + after > 0) {
-    const auto [first, last] = presence_of_thing(voxel, map);
-    const auto is_outside = [first = first, last = last](std::uint32_t scan) {
-      return scan < first || scan > last;
-    };
-    passes += static_cast<float>(
-        std::count_if(evidence.first_passes.begin(), evidence.first_passes.begin() + before, is_outside) +
-        std::count_if(evidence.last_passes.begin(), evidence.last_passes.begin() + after, is_outside));
-  }
-  return std::min(passes, static_cast<float>(kKept));
-}
-
-}  // namespace
-
-void find_passes_outside(const std::vector<std::uint32_t>& voxels, const RunContext& context,
-                         EvidenceMap& map) {
-  const StageScope timed(context.times, "passes outside");
-  parallel_chunks(context.threads, voxels.size(), kVoxelsATask,
-                  [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin; i < end; ++i) {
-                      map.evidence(voxels[i]).passes_outside = passes_outside(voxels[i], map);
-                    }
-                  });
-}
-
-float passes_of_thing(std::uint32_t voxel, const EvidenceMap& map) {
-  float passes = 0.0F;
-  int voxels = 0;
-  for_voxels_of_thing(voxel, map, [&](const VoxelEvidence& some) {
-    passes += some.passes_outside;
-    ++voxels;
-  });
-  return passes / static_cast<float>(std::max(voxels, 1));
+bool has_few_hits(const VoxelEvidence& evidence) {
+  return evidence.hits <= kFewHits;
 }
 
 float contradiction(const VoxelEvidence& evidence) {
   int outside = evidence.passes_before + evidence.passes_after;
-  if (evidence.hits <= kFewHits) outside += evidence.open_before + evidence.open_after;
+  if (has_few_hits(evidence)) outside += evidence.open_before + evidence.open_after;
   const int hits = std::min<int>(evidence.hits, kMostHits);
   return static_cast<float>(outside) / static_cast<float>(outside + hits + 1);
 }

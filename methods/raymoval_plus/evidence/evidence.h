@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "methods/raymoval_plus/common/parameters.h"
-#include "methods/raymoval_plus/evidence/evidence_map.h"
 #include "methods/raymoval_plus/evidence/beam_image.h"
+#include "methods/raymoval_plus/evidence/evidence_map.h"
 #include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -17,7 +17,7 @@ namespace raymoval::raymoval_plus_method {
 struct PosedImage {
   const BeamImage* image = nullptr;
   Eigen::Vector3d position;  ///< Of the sensor, world frame, metres.
-  std::size_t scan = 0;  ///< Its number.
+  std::size_t scan = 0;      ///< Its number.
 };
 
 /// When step 4 decides on voxels: after each scan, or by `decide_all` at the end.
@@ -59,17 +59,13 @@ class EarlierScans {
 /// Step 3 for one voxel: adds what one scan says. Scans come in order of time.
 void add_observation(Observation observation, std::size_t scan, VoxelEvidence& evidence);
 
-/// The share of a voxel's observations that contradict it: scans that passed before the first hit or
-/// after the last one, from 0 to 1. Hits count up to ten, so that what stood for long and left can
-/// be told.
+/// The share of a voxel's observations that contradict it: scans that passed before the first hit
+/// or after the last one, from 0 to 1. Hits count up to ten, so that what stood for long and left
+/// can be told.
 [[nodiscard]] float contradiction(const VoxelEvidence& evidence);
 
-/// Finds `VoxelEvidence::passes_outside` of some voxels. What stands has next to none; the passes
-/// that a voxel alone counts are also of beams beside its points.
-void find_passes_outside(const std::vector<std::uint32_t>& voxels, const RunContext& context,
-                         EvidenceMap& map);
-/// The mean of `passes_outside` over the voxels of the thing near one of them.
-[[nodiscard]] float passes_of_thing(std::uint32_t voxel, const EvidenceMap& map);
+/// Whether so few scans hit a voxel that what is open around it counts as passing it.
+[[nodiscard]] bool has_few_hits(const VoxelEvidence& evidence);
 
 /// Whether many scans hit a voxel and next to none contradicts it.
 [[nodiscard]] bool is_firm(const VoxelEvidence& evidence);

@@ -25,12 +25,16 @@ constexpr std::uint32_t kComparedBlocks = 256;
 }  // namespace
 
 void EvidenceMap::add_point(std::uint32_t voxel, std::uint32_t parts) {
-  add_sample(voxel, static_cast<int>(parts & 0xFFU), static_cast<int>(parts >> 8U & 0xFFU), static_cast<int>(upward(parts)));
+  add_sample(voxel, static_cast<int>(parts & 0xFFU), static_cast<int>(parts >> 8U & 0xFFU),
+             static_cast<int>(upward(parts)));
 }
 
-void EvidenceMap::add_beside(std::uint32_t voxel, std::uint32_t parts, const Eigen::Vector3f& offset) {
+void EvidenceMap::add_beside(std::uint32_t voxel, std::uint32_t parts,
+                             const Eigen::Vector3f& offset) {
   const Eigen::Vector3f step = offset * static_cast<float>(kParts * inverse_);
-  add_sample(voxel, static_cast<int>(parts & 0xFFU) + static_cast<int>(std::lround(step.x())), static_cast<int>(parts >> 8U & 0xFFU) + static_cast<int>(std::lround(step.y())), static_cast<int>(upward(parts)) + static_cast<int>(std::lround(step.z())));
+  add_sample(voxel, static_cast<int>(parts & 0xFFU) + static_cast<int>(std::lround(step.x())),
+             static_cast<int>(parts >> 8U & 0xFFU) + static_cast<int>(std::lround(step.y())),
+             static_cast<int>(upward(parts)) + static_cast<int>(std::lround(step.z())));
 }
 
 void EvidenceMap::add_sample(std::uint32_t voxel, int x, int y, int z) {
@@ -102,7 +106,8 @@ VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   const Eigen::Vector3d mean = Eigen::Vector3d(sums.x, sums.y, sums.z) * n;
   Eigen::Matrix3d covariance;
   const auto d = [](std::int64_t sum) { return static_cast<double>(sum); };
-  covariance << d(sums.xx), d(sums.xy), d(sums.xz), d(sums.xy), d(sums.yy), d(sums.yz), d(sums.xz), d(sums.yz), d(sums.zz);
+  covariance << d(sums.xx), d(sums.xy), d(sums.xz), d(sums.xy), d(sums.yy), d(sums.yz), d(sums.xz),
+      d(sums.yz), d(sums.zz);
   covariance = (covariance * n - mean * mean.transpose()) * (scale * scale);
   covariance.diagonal().array() += kLeastDeviation * kLeastDeviation;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
@@ -113,8 +118,9 @@ VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   const float behind = is_flat ? static_cast<float>(kBehind + deviations[0]) : 0.0F;
   const Eigen::Matrix3f inverse = covariance.inverse().cast<float>();
   const double radius = std::sqrt(covariance.cwiseAbs().rowwise().sum().maxCoeff());
-  return {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(0, 2), inverse(1, 2),
-          sums.nearest, normal.x(), normal.y(), normal.z(), behind, static_cast<float>(radius)};
+  return {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1),
+          inverse(0, 2), inverse(1, 2), sums.nearest,  normal.x(),
+          normal.y(),    normal.z(),    behind,        static_cast<float>(radius)};
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

@@ -29,8 +29,8 @@ struct VoxelEvidence {
   /// The numbers of the first scans that passed before the first hit, and of the last ones that
   /// passed after the last hit; of the latter, pass number n is at n % kPasses.
   std::array<std::uint32_t, kPasses> first_passes{}, last_passes{};
-  /// Scans that passed before or after the thing at the voxel was there, at most kPasses. The voxels
-  /// of a thing are those within `reach_of_things` that were there at nearly the same time.
+  /// Scans that passed before or after the thing at the voxel was there, at most kPasses; see
+  /// `find_passes_outside`.
   float passes_outside = 0.0F;
 };
 
@@ -43,12 +43,10 @@ class EvidenceMap {
   static constexpr std::uint32_t kNone = Blocks::kNone;
 
   /// @param voxel_size metres
-  /// @param reach_of_things voxels within this distance may be of one thing, in voxels
   /// @param knows_planes whether beams that end just behind the plane of a voxel's points count
-  explicit EvidenceMap(double voxel_size, int reach_of_things = 3, bool knows_planes = true)
+  explicit EvidenceMap(double voxel_size, bool knows_planes = true)
       : size_(voxel_size),
         inverse_(1.0 / voxel_size),
-        reach_of_things_(reach_of_things),
         knows_planes_(knows_planes),
         blocks_(kNone) {}
 
@@ -76,7 +74,9 @@ class EvidenceMap {
   }
   void add_point(std::uint32_t voxel, std::uint32_t parts);
   /// Adds a place that may be outside of the voxel. @param offset from a point, metres
-  void see_from(std::uint32_t voxel, float range) { sums_[voxel].nearest = std::min(sums_[voxel].nearest, range); }
+  void see_from(std::uint32_t voxel, float range) {
+    sums_[voxel].nearest = std::min(sums_[voxel].nearest, range);
+  }
   void add_beside(std::uint32_t voxel, std::uint32_t parts, const Eigen::Vector3f& offset);
   void add_sample(std::uint32_t voxel, int x, int y, int z);
   void expect_slot(std::size_t slot) const {
@@ -86,7 +86,7 @@ class EvidenceMap {
   void expect_sums(std::uint32_t voxel) const { __builtin_prefetch(&sums_[voxel]); }
 
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
-  [[nodiscard]] int reach_of_things() const { return reach_of_things_; }
+  [[nodiscard]] double voxel_size() const { return size_; }  ///< Metres.
   /// The place of a cell among those of all blocks, or `Blocks::kNoSlot`.
   [[nodiscard]] std::size_t find_slot(const VoxelIndex& cell, Blocks::Cursor& cursor) const {
     return blocks_.slot(cell, cursor);
@@ -173,7 +173,6 @@ class EvidenceMap {
   [[nodiscard]] VoxelIndex tile_at(const Eigen::Vector3d& place) const;
 
   double size_, inverse_;
-  int reach_of_things_;
   bool knows_planes_;
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block: see `dynamic_in`.
@@ -189,5 +188,14 @@ class EvidenceMap {
   std::vector<std::uint32_t> changed_;      ///< Voxels whose mean changed, ...
   std::vector<std::uint8_t> mean_changed_;  ///< ... which this says of each voxel.
 };
+
+/// Calls `visit(voxel, cell)` for each voxel of a block; `cell` is its place in the block.
+template <class Visit>
+void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
+  const std::uint32_t* const cells = map.blocks().cells(block);
+  for (std::size_t i = 0; i < EvidenceMap::Blocks::kCells; ++i) {
+    if (cells[i] != EvidenceMap::kNone) visit(cells[i], i);
+  }
+}
 
 }  // namespace raymoval::raymoval_plus_method

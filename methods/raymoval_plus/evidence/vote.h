@@ -22,8 +22,4 @@ void vote(const Parameters& parameters, const RunContext& context, EvidenceMap& 
 std::vector<std::uint32_t> blocks_of(const std::vector<std::uint32_t>& voxels,
                                      const EvidenceMap& map);
 
-/// The voxels of some blocks.
-std::vector<std::uint32_t> voxels_of(const std::vector<std::uint32_t>& blocks,
-                                     const EvidenceMap& map);
-
 }  // namespace raymoval::raymoval_plus_method

@@ -112,7 +112,8 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
 
 /// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
 bool came_or_leaves(const Track& track, const Parameters& parameters) {
-  return dynamic_objects(track, parameters) >= kCameOrLeaves * static_cast<double>(track.nodes.size());
+  return dynamic_objects(track, parameters) >=
+         kCameOrLeaves * static_cast<double>(track.nodes.size());
 }
 
 /// How the object of a track goes.

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
+#include "methods/raymoval_plus/evidence/things.h"
 #include "methods/raymoval_plus/objects/fragments.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -17,7 +18,8 @@ constexpr std::size_t kFewPoints = 8;
 /// A cluster of which no larger share of the points is dynamic is static.
 constexpr double kHardlyDynamic = 0.1;
 /// A point stands if so many scans hit its voxel, and fewer passes than this a voxel tell that the
-/// thing there came or left. If this share of a dynamic cluster stands, it is a thing beside another.
+/// thing there came or left. If this share of a dynamic cluster stands, it is a thing beside
+/// another.
 constexpr int kStandingHits = 10;
 constexpr float kStandingPasses = 0.2F;
 constexpr double kStandingShare = 0.5;
@@ -80,7 +82,8 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
                                              const Parameters& parameters) {
   std::vector<ObjectSummary> boxes(scan.clusters.size());
   for (std::size_t i = 0; i < scan.high_points.size(); i += kFewPoints) {
-    add_to_box(scan.world(scan.high_points[i]), boxes[static_cast<std::size_t>(scan.cluster_of[i])]);
+    add_to_box(scan.world(scan.high_points[i]),
+               boxes[static_cast<std::size_t>(scan.cluster_of[i])]);
   }
   std::vector<std::uint8_t> follow(boxes.size());
   for (std::size_t c = 0; c < follow.size(); ++c) {
@@ -91,38 +94,50 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
   return follow;
 }
 
-/// Whether a point is of something that stands.
-bool stands(std::uint32_t k, const SegmentedScan& scan, const EvidenceMap& map) {
-  if (!scan.has_standing_voxel(k)) return false;
-  const VoxelEvidence& evidence = map.evidence(scan.voxel[k]);
-  return evidence.hits >= kStandingHits && evidence.passes_outside < 1.0F &&
-         passes_of_thing(scan.voxel[k], map) < kStandingPasses;
-}
+/// Where clusters join what moves to what stands: points of the other thing.
+class OtherThings {
+ public:
+  OtherThings(const SegmentedScan& scan, const EvidenceMap& map)
+      : scan_(scan), map_(map), around_(map.voxel_size()) {}
 
-/// The points of things that stand and were clustered with something that goes.
-/// @param go 1 for each cluster that goes
-std::vector<std::uint32_t> standing_beside(const SegmentedScan& scan, const EvidenceMap& map,
-                                           const std::vector<std::uint8_t>& go) {
-  std::vector<std::pair<std::uint32_t, std::size_t>> found;
-  std::vector<int> count(go.size(), 0);
-  for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
-    if (go[cluster] == 0 || !stands(k, scan, map)) return;
-    found.emplace_back(k, cluster);
-    ++count[cluster];
-  });
-  std::vector<std::uint32_t> points;
-  for (const auto& [k, cluster] : found) {
-    if (count[cluster] >= kStandingShare * scan.clusters[cluster].points) points.push_back(k);
+  /// The points of what stands beside things that go.
+  /// @param go 1 for each cluster that goes
+  [[nodiscard]] std::vector<std::uint32_t> standing_beside(const std::vector<std::uint8_t>& go) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> found;
+    std::vector<int> count(go.size(), 0);
+    for_clustered_points(scan_, [&](std::uint32_t k, std::size_t cluster) {
+      if (go[cluster] == 0 || !stands(k)) return;
+      found.emplace_back(k, cluster);
+      ++count[cluster];
+    });
+    std::vector<std::uint32_t> points;
+    for (const auto& [k, cluster] : found) {
+      if (count[cluster] >= kStandingShare * scan_.clusters[cluster].points) points.push_back(k);
+    }
+    return points;
   }
-  return points;
-}
+  /// Whether a point of a static cluster is of something that moves.
+  [[nodiscard]] bool moves(std::uint32_t k, const Cluster& cluster) {
+    return cluster.points >= kLargeCluster && scan_.verdict[k] == Verdict::kDynamic &&
+           scan_.has_standing_voxel(k) && passes_of_thing(k) >= kMovingPasses;
+  }
 
-/// Whether a point is of something that moves beside what a static cluster is else.
-bool moves_inside(std::uint32_t k, const Cluster& cluster, const SegmentedScan& scan,
-                  const EvidenceMap& map) {
-  return cluster.points >= kLargeCluster && scan.verdict[k] == Verdict::kDynamic &&
-         scan.has_standing_voxel(k) && passes_of_thing(scan.voxel[k], map) >= kMovingPasses;
-}
+ private:
+  [[nodiscard]] bool stands(std::uint32_t k) {
+    if (!scan_.has_standing_voxel(k)) return false;
+    const VoxelEvidence& evidence = map_.evidence(scan_.voxel[k]);
+    return evidence.hits >= kStandingHits && evidence.passes_outside < 1.0F &&
+           passes_of_thing(k) < kStandingPasses;
+  }
+  [[nodiscard]] float passes_of_thing(std::uint32_t k) {
+    around_.look_at(map_.block_of(scan_.voxel[k]), map_);
+    return around_.passes_of_thing(map_.index(scan_.voxel[k]));
+  }
+
+  const SegmentedScan& scan_;
+  const EvidenceMap& map_;
+  Surroundings around_;
+};
 
 /// Lets fragments go with what goes beside them.
 /// @param go 1 for each cluster that goes
@@ -222,15 +237,16 @@ Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marke
     stay[c] = cluster.evidence.dynamic <= kHardlyDynamic * cluster.points ? 1 : 0;
   }
   for (const int cluster : marked) go[static_cast<std::size_t>(cluster)] = 1;
+  OtherThings others(scan, map);
   Verdicts verdict = scan.verdict;
   for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
     if (go[cluster] != 0) {
       verdict[k] = Verdict::kDynamic;
-    } else if (stay[cluster] != 0 && !moves_inside(k, scan.clusters[cluster], scan, map)) {
+    } else if (stay[cluster] != 0 && !others.moves(k, scan.clusters[cluster])) {
       verdict[k] = Verdict::kStatic;
     }
   });
-  for (const std::uint32_t k : standing_beside(scan, map, go)) verdict[k] = Verdict::kStatic;
+  for (const std::uint32_t k : others.standing_beside(go)) verdict[k] = Verdict::kStatic;
   add_fragments(scan, go, parameters, verdict);
   return verdict;
 }

@@ -38,9 +38,9 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
                                              const Parameters& parameters,
                                              const RunContext& context);
 
-/// Steps 6 and 7: the verdicts after each cluster was taken as one thing. Dynamic clusters and those
-/// that a track marked are dynamic as a whole, clusters with next to no dynamic points are static.
-/// Where a cluster joins what moves to what stands, the other thing keeps its own verdict.
+/// Steps 6 and 7: the verdicts after each cluster was taken as one thing. Dynamic clusters and
+/// those that a track marked are dynamic as a whole, clusters with next to no dynamic points are
+/// static. Where a cluster joins what moves to what stands, the other thing keeps its own verdict.
 /// Fragments go with what goes beside them.
 /// @param marked numbers of the clusters that a track marked
 Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,

@@ -17,8 +17,8 @@ std::vector<float> object_shares(const SegmentedScan& scan) {
   std::vector<float> shares(scan.scan.size(), kNoObject);
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
-    shares[scan.high_points[i]] =
-        static_cast<float>(cluster.evidence.dynamic) / static_cast<float>(std::max(cluster.points, 1));
+    shares[scan.high_points[i]] = static_cast<float>(cluster.evidence.dynamic) /
+                                  static_cast<float>(std::max(cluster.points, 1));
   }
   return shares;
 }
