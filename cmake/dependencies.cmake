@@ -92,7 +92,7 @@ raymoval_need_package(CLI11 2.1 libcli11-dev)
 # Messages: fmt::format, by <fmt/format.h>.
 raymoval_need_package(fmt 8 libfmt-dev)
 raymoval_need_package(TBB "" libtbb-dev)
-# Deflates the points of a report; unpacks clouds (.gz, .npz).
+# Deflates the points of a report; checksums of recordings.
 raymoval_need_package(ZLIB "" zlib1g-dev)
 raymoval_need_package(nanoflann "" libnanoflann-dev)
 raymoval_need_package(tsl-robin-map "" robin-map-dev)

@@ -7,10 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "eval/dynamicmap/dynamicmap.h"
-#include "eval/dynamicmap/strict.h"
-#include "eval/erasor/erasor.h"
-#include "eval/mos/mos.h"
+#include "eval/built_in_protocols.h"
 
 namespace raymoval {
 namespace {

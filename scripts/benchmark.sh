@@ -1,17 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Times the kernels of the raymoval method and the usual ways to cast rays, in one process, and whole
-# cells of every method.
+# Times the kernels of the raymoval method and the usual way to cast rays, in one process.
 #
 #   scripts/benchmark.sh [--out DIR]                 results go to DIR (default: results/run-kernels)
 #   RAYMOVAL_DATA=DIR scripts/benchmark.sh           also on your own sequence, see
 #                                                    `raymoval list sequences`
 #
-# Writes kernels.json (images and scans: repetitions in random order), maps.json (maps by size: one
-# size after the other, since only one such map is held at a time) and kernels.md, the table of
-# medians; and speed.json: whole cells (load, method, score) of every method on one scene, relative to
-# a fixed kernel of the same run, so that two machines can be compared:
-#   raymoval compare --speed DIR OTHER
+# Writes kernels.json (repetitions in random order), and prints its table.
+# `raymoval run` measures whole methods and their stages.
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -35,7 +31,7 @@ while [[ $# -gt 0 ]]; do
       shift 2
       ;;
     -h | --help)
-      sed -n '3,15s/^# \{0,1\}//p' scripts/benchmark.sh
+      sed -n '3,10s/^# \{0,1\}//p' scripts/benchmark.sh
       exit 0
       ;;
     *) fail "unknown argument '$1'; usage: scripts/benchmark.sh [--out DIR]" ;;
@@ -57,25 +53,12 @@ cmake --preset release -DRAYMOVAL_BUILD_KERNELS=ON >"$out/build.log" 2>&1 &&
   fail "the build failed, see $out/build.log (scripts/install_dependencies.sh installs what is needed)"
 
 kernels=build/release/raymoval_kernels
-# run NAME FLAGS...: one run into NAME.json, which is never a partial file.
-run() {
-  local name=$1
-  shift
-  rm -f "$out/$name.json"
-  "$kernels" --benchmark_out="$out/$name.part" --benchmark_out_format=json \
-    --benchmark_repetitions=5 "$@" || fail "the run for $name.json failed, see above"
-  # Google Benchmark writes undefined aggregates as NaN, which is no JSON.
-  sed -E 's/: -?(NaN|nan|inf|Infinity)(,?)$/: null\2/' "$out/$name.part" >"$out/$name.json"
-  rm "$out/$name.part"
-}
-run kernels --benchmark_filter='-^map_' --benchmark_min_time=0.1 \
-  --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=false
-run maps --benchmark_filter='^map_'
-
-"$kernels" --table "$out/kernels.json" "$out/maps.json" >"$out/kernels.md.part"
-# Last, since nothing else may run beside it.
-"$kernels" --cells "$out/speed.json" >>"$out/kernels.md.part" || fail "the whole cells failed, see above"
-mv "$out/kernels.md.part" "$out/kernels.md"
-cat "$out/kernels.md"
-echo
-echo "benchmark.sh: wrote $out/kernels.json, $out/maps.json, $out/speed.json and $out/kernels.md"
+# A run that is stopped leaves no partial file.
+rm -f "$out/kernels.json"
+"$kernels" --benchmark_out="$out/kernels.part" --benchmark_out_format=json --benchmark_repetitions=5 \
+  --benchmark_min_time=0.1 --benchmark_enable_random_interleaving=true ||
+  fail "the run for kernels.json failed, see above"
+# Google Benchmark writes undefined aggregates as NaN, which is no JSON.
+sed -E 's/: -?(NaN|nan|inf|Infinity)(,?)$/: null\2/' "$out/kernels.part" >"$out/kernels.json"
+rm "$out/kernels.part"
+echo "benchmark.sh: wrote $out/kernels.json"

@@ -31,7 +31,7 @@ benchmark              harness suite result process tables run picture report cl
 benchmark              kernels
 benchmark/picture      canvas charts|maps
 benchmark/clean        rows outputs .
-benchmark/result       . removals|checks|speed
+benchmark/result       . removals|checks
 benchmark/run          folder .
 benchmark/tables       text .
 python                 module

@@ -81,8 +81,7 @@ def freeze_tables(out, run):
         (out / f"table.{form}").write_text(must("table", run, "--format", form))
     must("report", run, "-o", out / "report.html", "--quiet")
     must("picture", run, "-o", out / "map.png", "--quiet")
-    must("picture", run, "-o", out / "overview.png", "--kind", "overview", "--method", "raymoval:offline", "--quiet")
-    for kind in ("pr-rr", "stages", "accuracy-time"):
+    for kind in ("pr-rr", "accuracy-time"):
         must("picture", run, "-o", out / f"{kind}.svg", "--kind", kind, "--quiet")
     print("tables", flush=True)
 
@@ -105,7 +104,7 @@ def record(sequence, label):
 
 
 CLOUDS = {"bin": ".bin", "pcd": ".pcd", "pcd_records": ".pcd", "ply": ".ply", "ply_records": ".ply", "las": ".las",
-          "npy": ".npy", "npz": ".npz", "gz": ".pcd.gz"}
+          "npy": ".npy", "npz": ".npz"}
 BAGS = {"bag_db3": ".db3", "bag_mcap": ".mcap", "bag_ros1": ".bag"}
 BESIDE = {"poses": "poses.txt", "pose_formats": "poses.txt", "times": "times.txt", "calibration": "calib.txt",
           "sequence_json": "sequence.json"}

@@ -7,7 +7,6 @@
 #include "benchmark/clean/outputs/map_views.h"
 #include "benchmark/clean/outputs/output_folder.h"
 #include "benchmark/clean/outputs/scan_folder.h"
-#include "benchmark/clean/outputs/tile_sink.h"
 #include "benchmark/clean/rows/map_rows.h"
 #include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/result/removals/removal_files.h"
@@ -32,19 +31,13 @@ class LabelFolder : public CleanOutput {
 };
 
 bool is_map(const OutputPath& output) {
-  return output.kind == OutputKind::kCloud || output.kind == OutputKind::kTiles;
+  return output.kind == OutputKind::kCloud;
 }
 
 MapContent content_of(const OutputPath& output) {
   if (output.option == "--dynamic") return {false, true, false};
   if (output.option == "--labelled") return {true, true, true};
   return {};
-}
-
-/// The text that determines the format of a map's file or files.
-std::string format_name(const OutputPath& output, const CleanPaths& paths,
-                        const CleanWriting& writing) {
-  return paths.tiled ? "tile" + writing.tile_extension : output.path.string();
 }
 
 /// @throws UsageError if the confidence is requested but no output can hold it
@@ -74,9 +67,8 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
     layout_ = writing.confidence ? layout_with_confidence(rows_->layout()) : rows_->layout();
     has_confidence_ = writing.confidence;
   }
-  check_intensity_scale(all, paths, writing);
   for (const OutputPath& output : all) {
-    if (is_map(output)) add_map(output, paths, writing, precision.origin);
+    if (is_map(output)) add_map(output, writing, precision.origin);
   }
   if (rows_ && rows_->is_widened() && first_map_ != nullptr) {
     notes_.push_back(
@@ -90,48 +82,20 @@ CleanOutputs::CleanOutputs(const CleanPaths& paths, const CleanWriting& writing,
   add_views(paths, writing);
 }
 
-void CleanOutputs::note_losses(const OutputPath& output, const std::string& name,
-                               const RecordLayout& layout) {
-  for (const std::string& lost : format_losses(name, layout)) {
+void CleanOutputs::note_losses(const OutputPath& output, const RecordLayout& layout) {
+  for (const std::string& lost : format_losses(output.path, layout)) {
     notes_.push_back(output.option + ": " + lost);
   }
 }
 
-void CleanOutputs::check_intensity_scale(const std::vector<OutputPath>& outputs,
-                                         const CleanPaths& paths,
-                                         const CleanWriting& writing) const {
-  if (!writing.intensity_scale) return;
-  const bool is_used = std::any_of(outputs.begin(), outputs.end(), [&](const OutputPath& output) {
-    return is_map(output) && shown_intensity(format_name(output, paths, writing), rows_->layout());
-  });
-  if (is_used) return;
-  throw UsageError(
-      "--intensity-scale has no effect: it is for .las maps of scans whose intensity is a real "
-      "number. Other formats keep every intensity as it is. Leave it out.");
-}
-
-void CleanOutputs::add_map(const OutputPath& output, const CleanPaths& paths,
-                           const CleanWriting& writing, const Eigen::Vector3d& voxel_origin) {
+void CleanOutputs::add_map(const OutputPath& output, const CleanWriting& writing,
+                           const Eigen::Vector3d& voxel_origin) {
   const MapContent content = content_of(output);
   const RecordLayout layout = content.labelled ? labelled_layout(layout_) : layout_;
-  const std::string name = format_name(output, paths, writing);
-  if (rows_->is_widened()) check_coordinates(name, Coordinates::kDouble);
-  note_losses(output, name, layout);
-  RecordWriting records;
-  records.intensity_scale = writing.intensity_scale.value_or(1.0);
-  std::unique_ptr<RowSink> sink;
-  if (paths.tiled) {
-    sink = std::make_unique<TileSink>(
-        output.path, layout,
-        Tiling{writing.tile_size, sequence_.upright_frame(), writing.tile_extension, records});
-  } else {
-    sink = std::make_unique<FileSink>(output.path, layout, records);
-  }
-  auto map = std::make_unique<MapOutput>(std::move(sink), layout_, content, writing.voxel_size,
-                                         voxel_origin);
-  if (auto shown = shown_intensity(name, layout)) {
-    map->count_intensity({std::move(*shown), records.intensity_scale}, output.option);
-  }
+  if (rows_->is_widened()) check_coordinates(output.path, Coordinates::kDouble);
+  note_losses(output, layout);
+  auto map =
+      std::make_unique<MapOutput>(output.path, layout_, content, writing.voxel_size, voxel_origin);
   if (first_map_ == nullptr) first_map_ = map.get();
   outputs_.push_back(std::move(map));
 }

@@ -16,10 +16,7 @@ namespace raymoval {
 
 /// How the outputs of `raymoval clean` are written.
 struct CleanWriting {
-  double voxel_size = 0.0;  ///< Metres; 0 keeps every point.
-  double tile_size = 0.0;   ///< Metres; for maps that are folders of tiles.
-  std::string tile_extension = ".pcd";
-  std::optional<double> intensity_scale = std::nullopt;  ///< See `RecordWriting`.
+  double voxel_size = 0.0;       ///< Metres; 0 keeps every point.
   std::string method = "clean";  ///< The method's name in pictures and pages.
   bool confidence = false;       ///< Whether maps have the field of `layout_with_confidence`.
 };
@@ -54,13 +51,10 @@ class CleanOutputs {
   [[nodiscard]] bool has_own_poses() const { return has_own_poses_; }
 
  private:
-  void add_map(const OutputPath& output, const CleanPaths& paths, const CleanWriting& writing,
+  void add_map(const OutputPath& output, const CleanWriting& writing,
                const Eigen::Vector3d& voxel_origin);
-  /// @throws UsageError for a scale of intensities that no map shows as whole numbers
-  void check_intensity_scale(const std::vector<OutputPath>& outputs, const CleanPaths& paths,
-                             const CleanWriting& writing) const;
   void add_views(const CleanPaths& paths, const CleanWriting& writing);
-  void note_losses(const OutputPath& output, const std::string& name, const RecordLayout& layout);
+  void note_losses(const OutputPath& output, const RecordLayout& layout);
 
   const Sequence& sequence_;
   std::optional<MapRows> rows_;

@@ -57,13 +57,11 @@ std::optional<std::set<std::string>> recorded_files(const fs::path& folder, Outp
     std::set<std::string> files = {record_name(kind)};
     const auto record =
         nlohmann::json::parse(read_text(folder / record_name(kind)), nullptr, false);
-    const char* key = kind == OutputKind::kTiles ? "tiles" : "files";
-    if (!record.is_object() || !record.contains("written_by") || !record.contains(key) ||
-        !record[key].is_array()) {
+    if (!record.is_object() || !record.contains("written_by") || !record.contains("files") ||
+        !record["files"].is_array()) {
       throw DataError("no record");
     }
-    for (const auto& one : record[key]) {
-      const auto& name = one.is_object() && one.contains("file") ? one["file"] : one;
+    for (const auto& name : record["files"]) {
       if (name.is_string()) files.insert(name.get<std::string>());
     }
     return files;
@@ -152,11 +150,11 @@ std::vector<fs::path> files_of(const Sequence& sequence) {
 }
 
 bool is_folder_output(OutputKind kind) {
-  return kind == OutputKind::kLabels || kind == OutputKind::kTiles || kind == OutputKind::kScans;
+  return kind == OutputKind::kLabels || kind == OutputKind::kScans;
 }
 
 std::vector<OutputPath> CleanPaths::all() const {
-  const OutputKind maps = tiled ? OutputKind::kTiles : OutputKind::kCloud;
+  const OutputKind maps = OutputKind::kCloud;
   std::vector<OutputPath> outputs = {{"-o", map, maps},
                                      {"--dynamic", removed, maps},
                                      {"--labelled", labelled, maps},
@@ -169,7 +167,6 @@ std::vector<OutputPath> CleanPaths::all() const {
 }
 
 const char* record_name(OutputKind kind) {
-  if (kind == OutputKind::kTiles) return "manifest.json";
   return kind == OutputKind::kScans ? "cleaned.json" : "";
 }
 

@@ -19,7 +19,6 @@ enum class OutputKind {
   kPicture,  ///< A .png file.
   kPage,     ///< A .html file.
   kLabels,   ///< A folder of label files.
-  kTiles,    ///< A folder of tiles with a manifest.json.
   kScans,    ///< A folder of scans with a cleaned.json.
 };
 
@@ -41,7 +40,6 @@ struct CleanPaths {
   std::filesystem::path scans = {};     ///< Folder of scans without removed points.
   std::filesystem::path page = {};      ///< HTML page with a 3-D view.
   std::filesystem::path picture = {};   ///< PNG from above.
-  bool tiled = false;                   ///< Whether maps are folders of tiles.
   bool overwrite = false;               ///< Whether outputs may exist already.
 
   /// The outputs with a path, the most important first.
@@ -55,7 +53,7 @@ struct CleanPaths {
 /// All known files that a sequence is read from.
 std::vector<std::filesystem::path> files_of(const Sequence& sequence);
 
-/// Name of the record in a folder of tiles or scans, which lists the folder's files; empty for
+/// Name of the record in a folder of scans, which lists the folder's files; empty for
 /// other kinds. Only a folder with such a record is replaced.
 const char* record_name(OutputKind kind);
 

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <new>
-#include <numeric>
 
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/process/machine.h"
@@ -27,21 +26,6 @@ std::optional<double> quantile(const std::vector<double>& sorted, double share) 
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-/// Mean of the values from `first` on, `count` of them.
-double mean_from(const std::vector<double>& values, std::size_t first, std::size_t count) {
-  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-  return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(count), 0.0) /
-         static_cast<double>(count);
-}
-
-/// The first scans are left out: the map is still empty, and memory is not yet allocated.
-void measure_growth(const std::vector<double>& by_scan, Measurement& measured) {
-  constexpr std::size_t kFewest = 300, kFirst = 50, kCount = 100;
-  if (by_scan.size() < kFewest) return;
-  measured.early_seconds = mean_from(by_scan, kFirst, kCount);
-  measured.late_seconds = mean_from(by_scan, by_scan.size() - kCount, kCount);
-}
-
 /// Largest memory of this process since `reset_peak_memory`, or of one that the method started.
 std::optional<double> peak_since_reset(bool was_reset) {
   const auto own = peak_memory_mib();
@@ -56,7 +40,6 @@ Measurement measure(const StageTimes& times, const TimedSource& scans, double se
                     int threads) {
   std::vector<double> by_scan = times.seconds_by_scan();
   Measurement measured;
-  measure_growth(by_scan, measured);
   std::sort(by_scan.begin(), by_scan.end());
   measured.threads = threads;
   measured.mean_seconds = seconds / static_cast<double>(scans.size());

@@ -99,17 +99,15 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
   std::string html;
   TableOptions options;
   options.outside = published;
-  options.what = {"accuracy", "sweeps", "ranking", "points", "confidence", "controls"};
+  options.what = {"accuracy", "sweeps", "points", "confidence", "controls"};
   for (const TextTable& table : make_tables(results, options)) html += html_table(table);
   options.what = {"published"};
   for (const TextTable& table : make_tables(results, options)) {
     html += "<details><summary>Published results</summary>\n" + html_table(table) + "</details>\n";
   }
   std::string intervals;
-  for (const TextTable& table : full_column_tables(results)) {
-    if (table.title.starts_with("Intervals")) {
-      intervals += html_table(table, TableHeight::kScrolled);
-    }
+  for (const TextTable& table : interval_tables(results)) {
+    intervals += html_table(table, TableHeight::kScrolled);
   }
   if (!intervals.empty()) {
     html += "<details><summary>Intervals of the rates</summary>\n" + intervals + "</details>\n";
@@ -173,7 +171,7 @@ std::string charts_html(const RunResults& results) {
   for (const std::string& protocol : results.protocols) {
     html += chart_html(sweep_chart(results, protocol));
   }
-  html += chart_html(stage_chart(results)) + "</div>\n";
+  html += "</div>\n";
   std::string stages;
   for (const TextTable& table : make_tables(results, {.what = {"times", "stages"}})) {
     stages += html_table(table);

@@ -132,7 +132,6 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
   std::vector<PageSection> sections = {
       {"methods", "Methods", methods_html(results)},
       {"points", "Points", points_html(request, points)},
-      {"changes", "Changes", ""},
       {"failures", "Failed cells", failures_html(results)},
       {"charts", "Charts", charts_html(results)},
       {"losses", "Losses", losses_html(results)},
@@ -141,9 +140,6 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
       {"cells", "Cells", cells_html(results)},
       {"configuration", "Configuration", configuration_html(record, *request.methods)},
       {"cite", "Cite", citations_html(record.run, *request.methods)}};
-  if (request.comparison != nullptr) {
-    sections[2].html = comparison_html(*request.comparison, request.reference);
-  }
   std::erase_if(sections, [](const PageSection& section) { return section.html.empty(); });
   return sections;
 }

@@ -14,9 +14,7 @@ namespace raymoval {
 /// The content of a page.
 struct PageRequest {
   const KeptRun* run = nullptr;
-  std::vector<OutsideColumn> published;    ///< Papers' rows; may be empty.
-  const Comparison* comparison = nullptr;  ///< With a reference run; may be null.
-  std::string reference;                   ///< The name of the reference run.
+  std::vector<OutsideColumn> published;  ///< Papers' rows; may be empty.
   const MethodRegistry* methods = nullptr;
   bool with_points = true;       ///< Whether there is a 3-D view.
   std::size_t points = 1000000;  ///< The whole page has at most this many points.

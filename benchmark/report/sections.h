@@ -7,7 +7,6 @@
 #include "benchmark/report/html.h"
 #include "benchmark/result/results.h"
 #include "benchmark/tables/tables.h"
-#include "eval/comparison/compare.h"
 #include "methods/registry.h"
 
 namespace raymoval {
@@ -31,8 +30,6 @@ std::string confidence_html(const RunResults& results);
 std::string losses_html(const RunResults& results);
 /// The cells without a result, each with the reason and the end of its output.
 std::string failures_html(const RunResults& results);
-/// The changes against a reference run called `name`.
-std::string comparison_html(const Comparison& comparison, const std::string& name);
 /// The effective parameters of each method, the sequences, protocols, program and machine.
 std::string configuration_html(const ResultsRecord& record, const MethodRegistry& methods);
 /// BibTeX of the methods and protocols, to copy.

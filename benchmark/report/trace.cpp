@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The origin of a report's numbers: failures, changes, configuration.
+// The origin of a report's numbers: failures, configuration.
 #include "benchmark/report/sections.h"
 #include "benchmark/result/cell_json.h"
 #include "benchmark/tables/citations.h"
@@ -148,34 +148,6 @@ std::string failures_html(const RunResults& results) {
   }
   if (!results.missing.empty()) {
     html += "<h3>Not run</h3>\n" + html_list(results.missing);
-  }
-  return html;
-}
-
-std::string comparison_html(const Comparison& comparison, const std::string& name) {
-  std::string html = "<p>Compared with " + html_text(name) + ": " +
-                     std::to_string(comparison.same_cells) + " of " +
-                     std::to_string(comparison.cells) + " cells are the same. ";
-  switch (comparison.verdict()) {
-    case ExitCode::kCannotDo:
-      html += "<strong class=\"bad\">Not comparable.</strong></p>\n";
-      break;
-    case ExitCode::kWorse:
-      html += "<strong class=\"bad\">Worse.</strong></p>\n";
-      break;
-    default:
-      html += std::string("<strong class=\"good\">") +
-              (comparison.better.empty() ? "No regression." : "Better, no regression.") +
-              "</strong></p>\n";
-  }
-  const std::pair<const char*, const std::vector<std::string>*> parts[] = {
-      {"Not comparable", &comparison.incomparable},
-      {"Worse", &comparison.worse},
-      {"Better", &comparison.better},
-      {"Moved or new", &comparison.moved},
-      {"Time", &comparison.times}};
-  for (const auto& [heading, lines] : parts) {
-    if (!lines->empty()) html += std::string("<h3>") + heading + "</h3>\n" + html_list(*lines);
   }
   return html;
 }

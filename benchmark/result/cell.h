@@ -40,7 +40,7 @@ struct MethodRecord {
 struct ProtocolRecord {
   std::string name;      ///< Unique in the suite: "erasor", or the value of "as".
   std::string protocol;  ///< Name in the registry.
-  std::string version;   ///< Empty in files of earlier versions.
+  std::string version;
   Configuration options = {};
 };
 
@@ -91,16 +91,10 @@ struct Measurement {
   int threads = 1;
   double mean_seconds = 0.0;  ///< Per scan, without waiting for scans.
   std::optional<double> median_seconds = std::nullopt, p90_seconds = std::nullopt;
-  /// Mean of scans 50 to 149 and of the last 100 scans, if the sequence has 300 scans or more. A
-  /// rising mean shows that a method gets slower with the number of scans.
-  std::optional<double> early_seconds = std::nullopt, late_seconds = std::nullopt;
   double total_seconds = 0.0;  ///< Without waiting for scans.
   double load_seconds = 0.0;   ///< Waiting for scans.
   std::vector<StageSeconds> stages = {};
   std::optional<double> peak_memory_mib = std::nullopt;
-  /// Mean seconds per scan of each run, in a run with repeats; the other values are those of the
-  /// run of median time. Empty without repeats.
-  std::vector<double> repeats = {};
   /// Number of cells that ran at once on the machine, which makes each slower. No value: the method
   /// ran alone.
   std::optional<int> side_by_side = std::nullopt;
@@ -137,14 +131,6 @@ struct CellIdentity {
   MethodRecord method;
   DataRecord data;
   std::vector<ProtocolRecord> protocols;
-};
-
-/// A further run of a cell's method for its time (results/schema/timing.schema.json).
-struct RepeatRecord {
-  std::string key;     ///< Key of the cell.
-  int number = 2;      ///< The first run, which made the cell, is number 1.
-  std::string digest;  ///< Of the masks.
-  Measurement measured = {};
 };
 
 }  // namespace raymoval

@@ -120,14 +120,6 @@ void write_cell(const std::filesystem::path& file, const Cell& cell) {
   write_sealed(file, to_json(cell));
 }
 
-RepeatRecord read_repeat(const std::filesystem::path& file) {
-  return read_sealed_with(file, read_as<RepeatRecord>);
-}
-
-void write_repeat(const std::filesystem::path& file, const RepeatRecord& repeat) {
-  write_sealed(file, to_json(repeat));
-}
-
 std::string cell_key(const CellIdentity& identity) {
   return content_hash(json_text(to_json(identity)));
 }

@@ -24,10 +24,6 @@ class SchemaVersionError : public DataError {
 Cell read_cell(const std::filesystem::path& file);
 void write_cell(const std::filesystem::path& file, const Cell& cell);
 
-/// Reads a further run, such as timing-2.json.
-RepeatRecord read_repeat(const std::filesystem::path& file);
-void write_repeat(const std::filesystem::path& file, const RepeatRecord& repeat);
-
 /// Hash of all inputs that determine the counts of a cell. Any change changes the key.
 std::string cell_key(const CellIdentity& identity);
 

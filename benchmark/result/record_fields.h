@@ -65,11 +65,6 @@ class RecordWriter {
       if (value) field(key, *value);
     }
   }
-  /// A field that files of earlier versions do not have.
-  template <class Value>
-  void later_field(const char* key, const Value& value) {
-    field(key, value);
-  }
   /// A number that is null from `none` on.
   void limit(const char* key, double value, double none) {
     nullable(key, value < none ? std::optional<double>(value) : std::nullopt);
@@ -141,10 +136,6 @@ class RecordReader {
   template <class Value>
   void optional(const char* key, Value& value) const {
     if (has(key)) field(key, value);
-  }
-  template <class Value>
-  void later_field(const char* key, Value& value) const {
-    optional(key, value);
   }
   void limit(const char* key, double& value, double none) const;
   template <class Describe>

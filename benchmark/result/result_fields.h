@@ -35,7 +35,7 @@ void describe(Visitor& visitor, typename Visitor::template Of<ColumnValue> colum
   std::optional<double> percent = column.share.percent();
   visitor.require("percent");
   visitor.nullable("percent", percent);
-  if (!percent) visitor.later_field("undefined", column.undefined_reason);
+  if (!percent) visitor.field("undefined", column.undefined_reason);
 }
 
 template <class Visitor>
@@ -166,14 +166,11 @@ void describe(Visitor& visitor, typename Visitor::template Of<Measurement> measu
     by_scan.field("mean", measured.mean_seconds);
     by_scan.nullable("median", measured.median_seconds);
     by_scan.nullable("p90", measured.p90_seconds);
-    by_scan.nullable("early", measured.early_seconds);
-    by_scan.nullable("late", measured.late_seconds);
   });
   visitor.field("seconds_total", measured.total_seconds);
   visitor.field("seconds_load", measured.load_seconds);
   visitor.field("stages", measured.stages);
   visitor.nullable("peak_memory_mib", measured.peak_memory_mib);
-  visitor.optional("repeats", measured.repeats);
   visitor.optional("side_by_side", measured.side_by_side);
 }
 
@@ -193,15 +190,6 @@ void describe(Visitor& visitor, typename Visitor::template Of<Cell> cell) {
   visitor.optional("confidence", cell.reliability);
   visitor.nullable("masks", cell.masks);
   visitor.nullable("measured", cell.measured);
-}
-
-template <class Visitor>
-void describe(Visitor& visitor, typename Visitor::template Of<RepeatRecord> repeat) {
-  visitor.schema_version();
-  visitor.field("key", repeat.key);
-  visitor.field("repeat", repeat.number);
-  visitor.field("digest", repeat.digest);
-  visitor.field("measured", repeat.measured);
 }
 
 // run.json and results.json.
@@ -268,7 +256,7 @@ void describe_run(Visitor& visitor, typename Visitor::template Of<RunRecord> run
     suite.field("protocols", run.protocols);
     suite.field("controls", run.controls);
   });
-  if (is_whole) visitor.later_field("cells", run.cells);
+  if (is_whole) visitor.field("cells", run.cells);
   visitor.nullable("build", run.build);
   visitor.nullable("machine", run.machine);
   if (is_whole) describe_places(visitor, run.sequences);

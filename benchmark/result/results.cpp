@@ -66,9 +66,6 @@ void add_times(const Cell& cell, RunResults& results) {
   times.load_seconds += cell.measured->load_seconds;
   times.threads = std::max(times.threads, cell.measured->threads);
   times.side_by_side = std::max(times.side_by_side, cell.measured->side_by_side.value_or(1));
-  if (!cell.measured->repeats.empty()) {
-    times.repeats = static_cast<int>(cell.measured->repeats.size());
-  }
   for (const StageSeconds& stage : cell.measured->stages) {
     add_stage(times, stage.name, stage.seconds);
   }
@@ -293,7 +290,7 @@ void choose_cells(ResultsRecord& results, const std::vector<std::string>& only) 
   if (only.empty()) return;
   std::vector<std::string> names;
   for (const Cell& cell : results.cells) names.push_back(cell.sequence + "/" + cell.name);
-  const std::vector<bool> chosen = select_cells({only}, names, "run");
+  const std::vector<bool> chosen = select_cells(only, names, "run");
   std::vector<Cell> left;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (chosen[i]) left.push_back(std::move(results.cells[i]));

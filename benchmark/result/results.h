@@ -20,7 +20,6 @@ struct MethodTimes {
   double seconds = 0.0;                                ///< Without waiting for scans.
   double load_seconds = 0.0;                           ///< Waiting for scans.
   std::vector<std::pair<std::string, double>> stages;  ///< Seconds, summed over threads.
-  int repeats = 1;       ///< Number of runs; the times are those of the median run.
   int threads = 1;       ///< The largest number; parallel work adds up in `stages`.
   int side_by_side = 1;  ///< The largest number of cells that ran at once.
 };

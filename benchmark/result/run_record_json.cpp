@@ -33,20 +33,13 @@ void describe_places(RecordWriter& writer, const std::vector<SequenceRecord>& se
 void describe_places(RecordReader& reader, std::vector<SequenceRecord>& sequences) {
   std::vector<std::optional<SequenceRequest>> places;
   reader.optional("places", places);
-  if (places.empty()) return;  // Of an earlier version.
+  if (places.empty()) return;
   if (places.size() != sequences.size()) reader.fail("places", "is not one for each sequence");
   for (std::size_t i = 0; i < places.size(); ++i) sequences[i].place = places[i];
 }
 
-RunRecord run_record_from(const ordered_json& json, const std::string& file) {
-  auto run = read_as<RunRecord>(json, file);
-  // Earlier versions did not list the cells: they ran each sequence with each method.
-  if (!json.contains("cells")) run.cells = run.all_cells();
-  return run;
-}
-
 RunRecord read_run_record(const std::filesystem::path& file) {
-  return read_sealed_with(file, run_record_from);
+  return read_sealed_with(file, read_as<RunRecord>);
 }
 
 void write_run_record(const std::filesystem::path& file, const RunRecord& run) {

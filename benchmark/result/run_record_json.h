@@ -2,16 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "benchmark/result/run_record.h"
 
 namespace raymoval {
-
-/// Reads the content of run.json without its checksum. @param file for messages
-/// @throws FieldError naming the file and the field
-RunRecord run_record_from(const nlohmann::ordered_json& json, const std::string& file);
 
 /// Reads a sealed run.json. @throws DataError if it is missing, damaged or of another version
 RunRecord read_run_record(const std::filesystem::path& file);

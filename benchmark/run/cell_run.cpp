@@ -146,20 +146,8 @@ void score_answer(ScoredSequence& scored, const MethodTask& task, const MethodAn
   }
 }
 
-}  // namespace
-
-CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request) {
-  CellIdentity identity{method_record(request), data_record(scored), {}};
-  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
-    identity.protocols.push_back(protocol_record(scored, i));
-  }
-  return identity;
-}
-
-std::string current_key(ScoredSequence& scored, const MethodRequest& request) {
-  return cell_key(cell_identity(scored, request));
-}
-
+/// Runs the method, in this process or in a child. The status is only kOk if the method and the
+/// data that it read are those of the key. @throws Cancelled
 MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task) {
   MethodAnswer answer;
   answer.status = CellStatus::kFailed;
@@ -175,6 +163,20 @@ MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task) {
     answer.reason = change;
   }
   return answer;
+}
+
+}  // namespace
+
+CellIdentity cell_identity(ScoredSequence& scored, const MethodRequest& request) {
+  CellIdentity identity{method_record(request), data_record(scored), {}};
+  for (std::size_t i = 0; i < scored.protocol_count(); ++i) {
+    identity.protocols.push_back(protocol_record(scored, i));
+  }
+  return identity;
+}
+
+std::string current_key(ScoredSequence& scored, const MethodRequest& request) {
+  return cell_key(cell_identity(scored, request));
 }
 
 Cell execute_cell(ScoredSequence& scored, const MethodTask& task,

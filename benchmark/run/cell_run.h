@@ -24,10 +24,6 @@ std::string current_key(ScoredSequence& scored, const MethodRequest& request);
 Cell execute_cell(ScoredSequence& scored, const MethodTask& task,
                   const std::filesystem::path& removals = {});
 
-/// Runs the method, in this process or in a child. The status is only kOk if the method and the
-/// data that it read are those of the key. @throws Cancelled
-MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task);
-
 /// The cell of a sequence that cannot be read: status "bad_data".
 Cell unreadable_cell(const std::string& sequence, const MethodRequest& request,
                      const std::string& reason);

@@ -6,6 +6,7 @@
 #include "benchmark/process/method_run.h"
 #include "benchmark/run/cell_run.h"
 #include "benchmark/run/folder/run_folder.h"
+#include "benchmark/suite/cell_selection.h"
 #include "benchmark/suite/suite_json.h"
 #include "core/files/file_kind.h"
 #include "core/parallel.h"
@@ -81,7 +82,7 @@ OpenedSuite::OpenedSuite(const Suite& suite, const RunOptions& options)
                         request.options);  // Bad options are reported before the work.
   }
   cells_ = cell_names(suite);
-  selected_ = select_cells(options.selection, selection_names(cells_));
+  selected_ = select_cells(options.only, selection_names(cells_));
   for (const SequenceRequest& request : suite.sequences) {
     sequences_.push_back(
         open_sequence(request.path, request.options, {threads_, options.progress, options.cancel}));

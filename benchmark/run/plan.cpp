@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/run/plan.h"
 
-#include <fmt/format.h>
-
 #include "benchmark/run/cell_run.h"
 #include "benchmark/run/opened_suite.h"
 
 namespace raymoval {
 namespace {
-
-/// Looks up a cell and its repeats in the run folder.
-void look_for_cell(const OpenedSuite& suite, ScoredSequence& scored, CellIndex index,
-                   PlannedCell& planned) {
-  const StoredCell stored = suite.stored_cell(scored, index);
-  planned.why = stored.why;
-  planned.to_run = stored.state != StoredCell::State::kFresh;
-  if (is_control(suite.method(index).method.entry->name)) return;
-  for (int round = 2; round <= suite.suite().repeats && !planned.to_run; ++round) {
-    if (suite.store().find_repeat(planned.cell, round, planned.key)) continue;
-    planned.to_run = true;
-    planned.why = fmt::format("repeat {} is not there yet", round);
-  }
-}
 
 PlannedCell plan_cell(const OpenedSuite& suite, ScoredSequence& scored, CellIndex index,
                       const std::string& unreadable) {
@@ -35,7 +19,11 @@ PlannedCell plan_cell(const OpenedSuite& suite, ScoredSequence& scored, CellInde
     planned.why = "its data cannot be read: " + unreadable;
   } else {
     planned.key = current_key(scored, method);
-    if (!suite.options().out.empty()) look_for_cell(suite, scored, index, planned);
+    if (!suite.options().out.empty()) {
+      const StoredCell stored = suite.stored_cell(scored, index);
+      planned.why = stored.why;
+      planned.to_run = stored.state != StoredCell::State::kFresh;
+    }
   }
   if (!suite.is_selected(index)) {
     planned.to_run = false;

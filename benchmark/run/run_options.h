@@ -3,8 +3,9 @@
 
 #include <atomic>
 #include <filesystem>
+#include <string>
+#include <vector>
 
-#include "benchmark/suite/cell_selection.h"
 #include "core/progress.h"
 
 namespace raymoval {
@@ -22,8 +23,8 @@ struct RunOptions {
   /// Number of cells that run at once, each with one thread if there are several. Their times are
   /// marked as taken side by side.
   int jobs = 1;
-  CellSelection selection = {};
-  bool collect = false;  ///< Whether results are made of the stored cells only.
+  std::vector<std::string> only = {};  ///< Patterns of the cells that are run, see `select_cells`.
+  bool collect = false;                ///< Whether results are made of the stored cells only.
   /// Whether results of another suite or other data are replaced; else the run is refused.
   bool overwrite = false;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "benchmark/result/checks/controls_check.h"
-#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/folder/folder_lock.h"
 #include "benchmark/run/folder/run_folder.h"
@@ -15,16 +14,16 @@ namespace {
 
 /// The results of all stored cells that belong to the folder.
 ResultsRecord collected_results(const OpenedSuite& suite, const JoinedFolder& folder,
-                                const std::vector<FinishedCell>& finished, RunSummary& summary) {
+                                const std::vector<std::optional<Cell>>& finished,
+                                RunSummary& summary) {
   ResultsRecord results{folder.record};
   const std::vector<CellName>& asked = suite.cells();
   for (const CellName& name : folder.record.cells) {
     const auto place = std::find(asked.begin(), asked.end(), name) - asked.begin();
     const bool is_asked = static_cast<std::size_t>(place) < asked.size();
     const Cell* earlier = is_asked ? nullptr : folder.earlier.find(name);
-    if (is_asked && finished[place].cell) {
-      results.cells.push_back(*finished[place].cell);
-      merge_repeats(results.cells.back(), finished[place].repeats);
+    if (is_asked && finished[place]) {
+      results.cells.push_back(*finished[place]);
     } else if (earlier != nullptr) {
       results.cells.push_back(*earlier);
     } else {
@@ -76,7 +75,6 @@ RunSummary run_suite(const Suite& suite, const RunOptions& options) {
   summary.earlier = folder.earlier.kept.size();
   const ResultsRecord results = collected_results(opened, folder, runs.finished(), summary);
   summary.controls = results.control_problems;
-  summary.flat_sweeps = flat_sweeps(shown_results(results));
   check_run_folder_stays(options.out);
   write_result_files(options.out, results);
   return summary;

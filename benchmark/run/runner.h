@@ -12,13 +12,12 @@ namespace raymoval {
 /// The summary at the end of a run.
 struct RunSummary {
   std::size_t cells = 0;
-  std::size_t reused = 0;                ///< Stored cells that were reused.
-  std::size_t earlier = 0;               ///< Other cells of earlier runs in the tables.
-  std::vector<std::string> failures;     ///< "sequence / method: reason", one for each failed cell.
-  std::vector<std::string> controls;     ///< Problems of the controls.
-  std::vector<std::string> lost_scans;   ///< "sequence: sentence" on scans that were not read.
-  std::vector<std::string> flat_sweeps;  ///< Sentences on swept parameters without effect.
-  std::vector<std::string> missing;      ///< "sequence / method" of cells that were not run.
+  std::size_t reused = 0;               ///< Stored cells that were reused.
+  std::size_t earlier = 0;              ///< Other cells of earlier runs in the tables.
+  std::vector<std::string> failures;    ///< "sequence / method: reason", one for each failed cell.
+  std::vector<std::string> controls;    ///< Problems of the controls.
+  std::vector<std::string> lost_scans;  ///< "sequence: sentence" on scans that were not read.
+  std::vector<std::string> missing;     ///< "sequence / method" of cells that were not run.
   [[nodiscard]] bool good() const { return failures.empty() && controls.empty(); }
 };
 

@@ -98,7 +98,6 @@ void SequenceRuns::run_all_side_by_side() {
 void SequenceRuns::run_job(SharedSequence& shared, CellIndex index) {
   if (const std::shared_ptr<ScoredSequence> scored = open_shared(shared, index.sequence)) {
     run_cell(*scored, index);
-    for (int round = 2; round <= suite_.suite().repeats; ++round) repeat(*scored, index, round);
   }
   const std::lock_guard lock(shared.mutex);
   if (--shared.cells_left == 0) shared.scored.reset();
@@ -122,12 +121,6 @@ void SequenceRuns::run(std::size_t sequence) {
   describe(sequence);
   const std::size_t methods = suite_.suite().methods.size();
   for (std::size_t method = 0; method < methods; ++method) run_cell(scored, {sequence, method});
-  // Method after method in each round, so that a machine that slows down slows all of them.
-  for (int round = 2; round <= suite_.suite().repeats; ++round) {
-    for (std::size_t method = 0; method < methods; ++method) {
-      repeat(scored, {sequence, method}, round);
-    }
-  }
 }
 
 std::optional<PoseFitRecord> SequenceRuns::known_pose_fit(const std::string& sequence,
@@ -233,7 +226,7 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
       suite_.say(fmt::format("{} on {} is run again: {}", method.name, scored.sequence().name,
                              stored.why));
     }
-    show_running(index, "");
+    show_running(index);
     std::filesystem::path removals;
     if (suite_.options().keep_removals) removals = suite_.store().new_removals(suite_.name(index));
     Cell cell = execute_cell(scored, task_for(scored, index), removals);
@@ -244,58 +237,8 @@ void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
   }
 }
 
-void SequenceRuns::repeat(ScoredSequence& scored, CellIndex index, int round) {
-  FinishedCell& finished = finished_[suite_.place(index)];
-  const bool has_result = finished.cell && finished.cell->ok() && finished.cell->masks;
-  if (!has_result || finished.cell->method.control) return;
-  auto repeat = suite_.store().find_repeat(suite_.name(index), round, finished.cell->key);
-  const bool is_usual = repeat && repeat->digest == finished.cell->masks->digest;
-  if (!is_usual && may_run(index)) {
-    repeat = run_again(scored, index, round);
-    const std::lock_guard lock(mutex_);
-    show_stopped(index);
-  }
-  if (!repeat) return;
-  if (repeat->digest != finished.cell->masks->digest) {
-    return fail_repeat(
-        index, round, CellStatus::kFailed,
-        "it removed other points than in the first run, but must always remove the same");
-  }
-  finished.repeats.push_back(repeat->measured);
-}
-
-std::optional<RepeatRecord> SequenceRuns::run_again(ScoredSequence& scored, CellIndex index,
-                                                    int round) {
-  check_cancelled(suite_.options());
-  show_running(index, fmt::format(", repeat {}", round));
-  const MethodAnswer answer = method_answer(scored, task_for(scored, index));
-  std::optional<Measurement> measured = answer.measured;
-  mark_times(measured);
-  if (answer.status != CellStatus::kOk) {
-    fail_repeat(index, round, answer.status, answer.reason);
-    return std::nullopt;
-  }
-  const std::string& key = finished_[suite_.place(index)].cell->key;
-  const RepeatRecord repeat{key, round, mask_digest(answer.masks), *measured};
-  // A repeat with other removed points fails its cell in this run. It is not stored, so that it
-  // does not fail the next run.
-  if (repeat.digest == finished_[suite_.place(index)].cell->masks->digest) {
-    suite_.store().keep_repeat(suite_.name(index), repeat);
-  }
-  return repeat;
-}
-
-void SequenceRuns::fail_repeat(CellIndex index, int round, CellStatus status,
-                               const std::string& reason) {
-  Cell& cell = *finished_[suite_.place(index)].cell;
-  cell.fail(status, fmt::format("repeat {}: {}", round, reason));
-  if (may_run(index)) suite_.store().keep(cell);
-  const std::lock_guard lock(mutex_);
-  summary_.failures.push_back(cell.title() + ": " + cell.reason);
-}
-
 /// Shows a running cell on the live line.
-void SequenceRuns::show_running(CellIndex index, const std::string& round) {
+void SequenceRuns::show_running(CellIndex index) {
   Progress* progress = suite_.options().progress;
   if (progress == nullptr) return;
   const CellName& cell = suite_.name(index);
@@ -304,8 +247,8 @@ void SequenceRuns::show_running(CellIndex index, const std::string& round) {
     running_.insert(cell.title());
     return progress->set_context(join({running_.begin(), running_.end()}));
   }
-  progress->set_context(fmt::format("[{}/{}] {} on {}{}", summary_.cells + (round.empty() ? 1 : 0),
-                                    finished_.size(), cell.name, cell.sequence, round));
+  progress->set_context(fmt::format("[{}/{}] {} on {}", summary_.cells + 1, finished_.size(),
+                                    cell.name, cell.sequence));
 }
 
 /// Removes finished cells from the shared live line. The caller holds the lock.
@@ -325,7 +268,7 @@ void SequenceRuns::finish(CellIndex index, Cell cell, bool was_there) {
     line = coloured(line, TerminalColour::kBad, stderr);
     summary_.failures.push_back(cell.title() + ": " + cell.reason);
   }
-  finished_[suite_.place(index)].cell = std::move(cell);
+  finished_[suite_.place(index)] = std::move(cell);
   Progress* progress = suite_.options().progress;
   if (progress == nullptr) return;
   show_stopped(index);

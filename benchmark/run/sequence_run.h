@@ -22,12 +22,6 @@ namespace raymoval {
 /// the exception of the lowest number is thrown when all threads have ended.
 void run_side_by_side(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// A cell of a run with the further runs of its method.
-struct FinishedCell {
-  std::optional<Cell> cell = std::nullopt;  ///< No value if it was neither run nor stored.
-  std::vector<Measurement> repeats = {};
-};
-
 /// Runs the cells of a suite, sequence after sequence, and stores them in the run folder. With
 /// `RunOptions::jobs`, several run at once: a free job takes the next cell, also of the next
 /// sequence.
@@ -42,8 +36,8 @@ class SequenceRuns {
   /// The same for one sequence, one cell after the other.
   void run(std::size_t sequence);
 
-  /// The finished cells, in the order of `OpenedSuite::cells`.
-  [[nodiscard]] const std::vector<FinishedCell>& finished() const { return finished_; }
+  /// The cells in the order of `OpenedSuite::cells`; no value if one was neither run nor stored.
+  [[nodiscard]] const std::vector<std::optional<Cell>>& finished() const { return finished_; }
   /// How many cells there are and which of them failed.
   [[nodiscard]] const RunSummary& summary() const { return summary_; }
   /// @throws DataError if none of the sequences could be read
@@ -75,11 +69,8 @@ class SequenceRuns {
   void run_cell(ScoredSequence& scored, CellIndex index);
   /// Marks times that were taken while other cells ran.
   void mark_times(std::optional<Measurement>& measured) const;
-  void repeat(ScoredSequence& scored, CellIndex index, int round);
-  std::optional<RepeatRecord> run_again(ScoredSequence& scored, CellIndex index, int round);
-  void fail_repeat(CellIndex index, int round, CellStatus status, const std::string& reason);
   [[nodiscard]] MethodTask task_for(ScoredSequence& scored, CellIndex index) const;
-  void show_running(CellIndex index, const std::string& round);
+  void show_running(CellIndex index);
   void show_stopped(CellIndex index);
   void finish(CellIndex index, Cell cell, bool was_there);
 
@@ -89,7 +80,7 @@ class SequenceRuns {
   std::mutex
       mutex_;  ///< Guards the data that jobs share: all members below, run.json and the progress.
   std::set<std::string> running_;
-  std::vector<FinishedCell> finished_;  ///< Each place belongs to the job that has the cell.
+  std::vector<std::optional<Cell>> finished_;  ///< Each place belongs to the job that has the cell.
   RunSummary summary_;
   std::size_t unreadable_ = 0;
   std::string first_unreadable_;

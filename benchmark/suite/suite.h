@@ -55,7 +55,6 @@ struct Suite {
   std::vector<ProtocolRequest> protocols;
   bool controls = true;           ///< Whether the controls are added and checked.
   int threads = 0;                ///< 0 means all threads of the machine.
-  int repeats = 1;                ///< How often each method runs, for its time; controls run once.
   double time_limit_s = 0.0;      ///< Of a cell; 0 means the usual limit for its number of scans.
   double memory_limit_mib = 0.0;  ///< Of a cell; 0 means the usual limit of the machine.
 };

@@ -275,7 +275,7 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
   const json content = read_json(path);
   const Fields file(
       content, path.string(),
-      "name sequences methods protocols controls threads repeats time_limit_s memory_limit_mib");
+      "name sequences methods protocols controls threads time_limit_s memory_limit_mib");
   Suite suite;
   Places places{path.parent_path(), data};
   suite.name = file.text("name", path.stem().string());
@@ -292,7 +292,6 @@ Suite read_suite(const std::filesystem::path& path, const MethodRegistry& regist
   for (const auto& [item, where] : file.list("protocols")) read_protocol(*item, where, suite);
   suite.controls = file.flag("controls", suite.controls);
   suite.threads = file.integer("threads", suite.threads, 1, 4096);
-  suite.repeats = file.integer("repeats", suite.repeats, 1, 1000);
   suite.time_limit_s = file.positive("time_limit_s", suite.time_limit_s);
   suite.memory_limit_mib = file.positive("memory_limit_mib", suite.memory_limit_mib);
   check_data_given(places, file.where());

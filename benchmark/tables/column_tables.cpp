@@ -83,40 +83,6 @@ TextTable loss_table(const std::vector<const MethodColumns*>& methods, const std
   return table;
 }
 
-/// Rejection or preservation by range or height: in all, then by band.
-TextTable band_table(const std::vector<const MethodColumns*>& methods, const std::string& kind,
-                     const std::string& axis) {
-  std::vector<std::string> bands, groups = {""};
-  for (const std::string& name : column_names(methods)) {
-    const ColumnName parts = parse_column_name(name);
-    if (parts.kind != kind) continue;
-    if (parts.axis == axis) add_once(bands, parts.band);
-    add_once(groups, parts.group);
-  }
-  TextTable table{"Columns: " + kind + " by " + axis, "method", {{"", {"all"}}}};
-  for (const std::string& band : bands) table.groups[0].columns.push_back(band);
-  const auto add_row = [&](const std::string& label, const std::string& group, auto&& text) {
-    TableRow row{label, {{text(ColumnName{kind, group}.text())}}, label == "points", {}};
-    for (const std::string& band : bands) {
-      row.cells.push_back({text(ColumnName{kind, group, axis, band}.text())});
-    }
-    row.block = group.empty() ? "all classes" : group;
-    table.rows.push_back(std::move(row));
-  };
-  for (const std::string& group : groups) {
-    for (const MethodColumns* method : methods) {
-      add_row(method->cell, group,
-              [&](const std::string& name) { return percent_text(method->find(name)); });
-    }
-    add_row("points", group,
-            [&](const std::string& name) { return std::to_string(most_points(methods, name)); });
-  }
-  table.notes.push_back("In percent of the points in the last row of each block" +
-                        std::string(kind == "rejection" ? ": moving ones that are removed."
-                                                        : ": static ones that are kept."));
-  return table;
-}
-
 /// Figures for neither a class nor a band.
 TextTable whole_table(const std::vector<const MethodColumns*>& methods) {
   TextTable table{"Columns", "method", {{"", {}}}};
@@ -236,37 +202,34 @@ std::vector<TextTable> compact_column_tables(const RunResults& results) {
       std::string(has_objects ? "parked worst: share kept of the parked object that loses most. "
                               : "") +
       "Of the classes with " + std::to_string(kNamedClassPoints) +
-      " points or more, the worst are shown. `raymoval table RUN --columns` has every class, range "
-      "and height.");
+      " points or more, the worst are shown. `raymoval table RUN --what losses` has every class, "
+      "range and height.");
   return {table};
 }
 
 std::vector<TextTable> loss_tables(const RunResults& results) {
   const std::vector<const MethodColumns*> methods = shown_methods(results, false);
   TextTable missed = loss_table(methods, "rejection", "Moving points that are kept, in percent");
-  missed.notes.emplace_back("Lower is better; darker is worse.");
+  missed.notes.emplace_back("Lower is better.");
   TextTable lost =
       loss_table(methods, "preservation", "Static points that are removed, in percent");
   lost.notes.emplace_back(
-      "Counts are added up over all sequences. Heights are above the road under the sensor. "
-      "`raymoval table RUN --columns` has classes by range and height too.");
+      "Counts are added up over all sequences. Heights are above the road under the sensor.");
   std::vector<TextTable> tables = {std::move(missed), std::move(lost)};
   std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
   return tables;
 }
 
-std::vector<TextTable> full_column_tables(const RunResults& results) {
-  std::vector<TextTable> tables;
+std::vector<TextTable> column_tables(const RunResults& results) {
   const std::vector<const MethodColumns*> methods = shown_methods(results, true);
-  if (!methods.empty()) {
-    tables.push_back(whole_table(methods));
-    tables.back().notes.push_back(general_notes());
-    for (const char* kind : {"rejection", "preservation"}) {
-      for (const char* axis : {"range", "height"}) {
-        tables.push_back(band_table(methods, kind, axis));
-      }
-    }
-  }
+  if (methods.empty()) return {};
+  TextTable table = whole_table(methods);
+  table.notes.push_back(general_notes());
+  return {table};
+}
+
+std::vector<TextTable> interval_tables(const RunResults& results) {
+  std::vector<TextTable> tables;
   for (const std::string& protocol : results.protocols) {
     TextTable table = interval_table(results, protocol);
     if (!table.rows.empty()) tables.push_back(std::move(table));

@@ -6,62 +6,12 @@
 #include <string_view>
 #include <utility>
 
-#include "benchmark/result/record_fields.h"
 #include "benchmark/tables/table_options.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/utf8.h"
 
 namespace raymoval {
-
-static void describe(RecordWriter& writer, const ComparisonOptions& options) {
-  std::vector<std::string> across;
-  if (options.across_parameters) across.emplace_back("parameters");
-  if (options.across_version) across.emplace_back("version");
-  writer.field("tolerances", options.tolerances);
-  writer.field("time_band", options.time_band);
-  writer.field("across", across);
-}
-
-static void describe(RecordWriter& writer, const ComparisonLine& line) {
-  writer.field("verdict", change_name(line.change));
-  writer.field("text", line.text);
-}
-
-static void describe(RecordWriter& writer, const RateChange& rate) {
-  writer.field("name", rate.name);
-  writer.field("reference", rate.before);
-  writer.field("run", rate.after);
-  writer.field("tolerance", rate.tolerance);
-  writer.field("verdict", change_name(rate.change));
-}
-
-static void describe(RecordWriter& writer, const CountChange& count) {
-  writer.field("name", count.name);
-  writer.field("reference", count.before);
-  writer.field("run", count.after);
-}
-
-static void describe(RecordWriter& writer, const ScoreComparison& score) {
-  writer.field("sequence", score.sequence);
-  writer.field("name", score.name);
-  writer.nullable("protocol", score.protocol);
-  writer.field("verdict", change_name(score.change));
-  writer.field("reasons", score.reasons);
-  writer.field("across", score.across);
-  writer.field("rates", score.rates);
-  writer.field("counts", score.counts);
-}
-
-static void describe(RecordWriter& writer, const TimeChange& time) {
-  const bool both = time.change != Change::kIncomparable;
-  writer.field("sequence", time.sequence);
-  writer.field("name", time.name);
-  writer.field("reference", time.before);
-  writer.field("run", time.after);
-  writer.field("ratio", both ? std::optional(time.ratio()) : std::nullopt);
-  writer.field("verdict", change_name(time.change));
-}
 
 namespace {
 
@@ -215,30 +165,10 @@ std::string comparison_junit(const Comparison& comparison) {
   return xml + "</testsuites>\n";
 }
 
-// JSON.
-
-std::string comparison_json(const Comparison& comparison, const ComparisonSubject& subject) {
-  RecordWriter writer;
-  writer.schema_version();
-  writer.field("run", subject.run);
-  writer.field("reference", subject.reference);
-  writer.field("verdict", comparison.verdict_words());
-  writer.field("exit_code", static_cast<int>(comparison.verdict()));
-  writer.field("cells", comparison.cells);
-  writer.field("same_cells", comparison.same_cells);
-  writer.field("options", subject.options);
-  std::vector<ComparisonLine> of_run = comparison.lines;
-  std::erase_if(of_run, [](const ComparisonLine& line) { return !line.sequence.empty(); });
-  writer.field("problems", of_run);
-  writer.field("scores", comparison.scores);
-  writer.field("times", comparison.time_changes);
-  return json_text(writer.json);
-}
-
 }  // namespace
 
 const std::vector<std::string>& comparison_formats() {
-  static const std::vector<std::string> formats = {"text", "md", "junit", "json"};
+  static const std::vector<std::string> formats = {"text", "md", "junit"};
   return formats;
 }
 
@@ -247,7 +177,6 @@ std::string comparison_in(const std::string& format, const Comparison& compariso
   if (format == "text") return comparison_text(comparison);
   if (format == "md") return comparison_markdown(comparison, subject);
   if (format == "junit") return comparison_junit(comparison);
-  if (format == "json") return comparison_json(comparison, subject);
   throw UsageError("--format " + format + ": is not a format of a comparison." +
                    suggestion(format, comparison_formats()));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/tables/rate_grid.h"
 #include "benchmark/tables/tables.h"
 #include "core/text.h"
@@ -75,9 +74,6 @@ std::vector<TextTable> sweep_tables(const RunResults& results, const TableOption
       tables.push_back(sweep_table(grid, options));
       tables.back().notes.emplace_back(
           "Each row is a point of the curve of kept static against removed moving points.");
-      for (const std::string& line : flat_sweeps(results, sweep)) {
-        tables.back().notes.push_back(line);
-      }
     }
   }
   return tables;

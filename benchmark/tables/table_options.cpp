@@ -34,23 +34,6 @@ std::vector<std::string> known_rates(const RunResults& results) {
   return known;
 }
 
-/// The names of a run's sequences, methods and swept methods.
-std::vector<std::string> run_names(const RunResults& results) {
-  std::vector<std::string> names = results.methods;
-  names.insert(names.end(), results.sequences.begin(), results.sequences.end());
-  for (const SweptCell& swept : results.sweeps) names.push_back(swept.of);
-  return names;
-}
-
-void check_different(const std::vector<std::string>& shown) {
-  std::set<std::string> seen;
-  for (const std::string& name : shown) {
-    if (seen.insert(name).second) continue;
-    throw UsageError("--names: two rows would be called '" + name +
-                     "'. Give each a name of its own.");
-  }
-}
-
 }  // namespace
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) {
@@ -188,72 +171,6 @@ void parse_decimals(const std::string& text, TableOptions& options) {
   } else {
     options.decimals_of[text.substr(0, equals)] = *decimals;
   }
-}
-
-void parse_display_names(const std::string& text, const RunResults& results, DisplayNames& names) {
-  // Names of sweep points contain '=': the first '=' after a name of the run separates.
-  const std::vector<std::string> known = run_names(results);
-  const auto add = [&](const std::string& line, const std::string& where, bool must_be_known) {
-    std::size_t equals = line.find('=');
-    while (equals != std::string::npos && !is_among(known, line.substr(0, equals))) {
-      equals = line.find('=', equals + 1);
-    }
-    const std::size_t first = line.find('=');
-    if (first == std::string::npos || first == 0 || first + 1 == line.size()) {
-      throw UsageError(where + ": expected NAME=SHOWN, such as 'raymoval:offline=Raymoval'.");
-    }
-    if (equals != std::string::npos && equals + 1 < line.size()) {
-      names[line.substr(0, equals)] = line.substr(equals + 1);
-    } else if (must_be_known) {
-      throw UsageError(where + ": no method or sequence of this run has this name." +
-                       suggestion(line.substr(0, first), known));
-    }
-  };
-  if (text.find('=') != std::string::npos) return add(text, "--names '" + text + "'", true);
-  std::size_t number = 0;  // Unknown names are no error: files serve many runs.
-  const std::string content = read_text(text);
-  for (const std::string_view raw : split(content, '\n')) {
-    ++number;
-    std::string line(raw.substr(0, raw.find('\r')));
-    if (line.empty() || line.starts_with('#')) continue;
-    add(line, text + ", line " + std::to_string(number), false);
-  }
-}
-
-void apply_display_names(const DisplayNames& names, RunResults& results,
-                         std::vector<OutsideColumn>& outside) {
-  const auto rename = [&](std::string& name) {
-    const auto found = names.find(name);
-    if (found != names.end()) name = found->second;
-  };
-  for (OutsideColumn& column : outside) {
-    for (OutsideRow& row : column.rows) {
-      if (names.contains(row.beside)) row.sequence = row.beside = names.at(row.beside);
-    }
-    rename(column.heading);
-  }
-  for (std::string& sequence : results.sequences) rename(sequence);
-  for (std::string& method : results.methods) rename(method);
-  for (Cell& cell : results.cells) {
-    rename(cell.sequence);
-    rename(cell.name);
-  }
-  for (MethodColumns& columns : results.columns) rename(columns.cell);
-  for (MethodTimes& times : results.times) rename(times.cell);
-  for (SweptCell& swept : results.sweeps) {
-    rename(swept.cell);
-    rename(swept.of);
-  }
-  for (ChangedMethod& changed : results.changed) rename(changed.name);
-  for (std::string& missing : results.missing) {
-    const std::size_t bar = missing.find(" / ");
-    std::string sequence = missing.substr(0, bar), cell = missing.substr(bar + 3);
-    rename(sequence);
-    rename(cell);
-    missing = sequence + " / " + cell;
-  }
-  check_different(results.sequences);
-  check_different(results.methods);
 }
 
 }  // namespace raymoval

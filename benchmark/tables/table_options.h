@@ -33,8 +33,7 @@ struct TableOptions {
   std::vector<std::string> rates = {};  ///< In this order, also kTimeRate; empty: the main ones.
   std::optional<int> decimals = {};  ///< Of every rate; nothing: as many as the rate's spec says.
   std::map<std::string, int> decimals_of = {};  ///< Of one rate; overrides `decimals`.
-  std::string sort = "none";   ///< A rate, kTimeRate, kMemoryColumn, "name" or "none".
-  bool disagreements = false;  ///< Whether pairs that protocols rank differently are listed.
+  std::string sort = "none";                ///< A rate, kTimeRate, kMemoryColumn, "name" or "none".
   std::vector<OutsideColumn> outside = {};  ///< Rates from elsewhere, see `set_beside`.
 };
 
@@ -81,17 +80,5 @@ void sort_results(const std::string& column, RunResults& results);
 
 /// Reads "2" or "F1=3" into the options. @throws UsageError
 void parse_decimals(const std::string& text, TableOptions& options);
-
-/// The names of sequences and methods in tables, by their names in the run.
-using DisplayNames = std::map<std::string, std::string>;
-
-/// Reads "NAME=SHOWN", or the lines of the file `text` in that form ('#' starts a comment).
-/// @throws UsageError, DataError
-void parse_display_names(const std::string& text, const RunResults& results, DisplayNames& names);
-
-/// Applies the displayed names to sequences, methods and outside columns.
-/// @throws UsageError if two methods or two sequences would have one displayed name
-void apply_display_names(const DisplayNames& names, RunResults& results,
-                         std::vector<OutsideColumn>& outside);
 
 }  // namespace raymoval

@@ -95,9 +95,6 @@ TextTable stage_table(const MethodTimes& times) {
                           (overlap ? ", and shares are of the sum of all stages." : "."));
   }
   if (times.side_by_side > 1) table.notes.push_back(side_by_side_note(times.side_by_side));
-  if (times.repeats > 1) {
-    table.notes.push_back("The median of " + std::to_string(times.repeats) + " runs.");
-  }
   return table;
 }
 
@@ -129,14 +126,25 @@ const std::vector<std::pair<std::string, std::function<MakeTables>>>& kinds_of_t
       {"accuracy", by_protocol(accuracy_tables)},
       {"sweeps", sweep_tables},
       {"published", published_tables},
-      {"ranking", ranking_tables},
       {"points", without_options(compact_column_tables)},
+      {"columns", without_options(column_tables)},
+      {"losses", without_options(loss_tables)},
+      {"intervals", without_options(interval_tables)},
       {"confidence", without_options(reliability_tables)},
       {"controls", by_protocol(control_tables)},
       {"failures", without_options(failure_tables)},
       {"times", without_options(cost_tables)},
       {"stages", without_options(stage_tables)}};
   return kinds;
+}
+
+/// Tables of other kinds are long, and are only made on request.
+std::vector<std::string> kinds_shown_by_default() {
+  std::vector<std::string> names = table_kinds();
+  std::erase_if(names, [](const std::string& name) {
+    return name == "columns" || name == "losses" || name == "intervals";
+  });
+  return names;
 }
 
 /// "0 to 60 m", or "any range".
@@ -199,7 +207,7 @@ std::vector<TextTable> make_tables(const RunResults& results, const TableOptions
   std::vector<TextTable> tables;
   const std::string data = data_words(results);
   for (const auto& [kind, make] : kinds_of_tables()) {
-    if (!options.what.empty() && !is_among(options.what, kind)) continue;
+    if (!is_among(options.what.empty() ? kinds_shown_by_default() : options.what, kind)) continue;
     for (TextTable& table : make(results, options)) {
       if (kind != "published") table.data = data;
       add_change_notes(results, table);

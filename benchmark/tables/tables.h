@@ -56,13 +56,6 @@ std::string controls_text(const RunResults& results);
 /// values of the headline rate are marked.
 std::vector<TextTable> sweep_tables(const RunResults& results, const TableOptions& options = {});
 
-/// How the order of the methods depends on the protocol: the rank of each method by the headline
-/// rate of each protocol, and its largest move from the first protocol to another one. Methods with
-/// equal displayed values have the same rank. Ranks are by the mean over the sequences; with
-/// `options.disagreements` also by each sequence, with a note on each pair that changes places.
-/// None for fewer than two protocols or methods.
-std::vector<TextTable> ranking_tables(const RunResults& results, const TableOptions& options = {});
-
 /// One table of the removed points, a row for each method: precision, recall, residue,
 /// preservation, the moving class with the largest remaining share and the static class with the
 /// largest lost share (of classes with at least `kNamedClassPoints` points). Counts are added up
@@ -75,9 +68,10 @@ inline constexpr std::int64_t kNamedClassPoints = 100;
 /// and class: a row for each part, a column for each method. None without columns.
 std::vector<TextTable> loss_tables(const RunResults& results);
 
-/// Scores by points: precision, recall, residue, rejection and preservation; then rejection and
-/// preservation by range and by height, a row for each method, a block for all points and for each
-/// class; then the intervals of every rate.
-std::vector<TextTable> full_column_tables(const RunResults& results);
+/// Scores by points that are neither of a class nor of a range or height. None without columns.
+std::vector<TextTable> column_tables(const RunResults& results);
+
+/// The intervals of the rates, a table for each protocol that has any.
+std::vector<TextTable> interval_tables(const RunResults& results);
 
 }  // namespace raymoval

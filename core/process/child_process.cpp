@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/process/child_process.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -16,8 +17,8 @@
 #include <set>
 #include <system_error>
 
+#include "core/files/descriptor.h"
 #include "core/process/family_memory.h"
-#include "core/process/output_tail.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/process/start_child.h"
@@ -29,6 +30,50 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTickMs = 20;
+
+constexpr std::size_t kTailBytes = 4096;
+
+/// Reads a pipe and keeps the last 4 KiB.
+class OutputTail {
+ public:
+  explicit OutputTail(Descriptor pipe);
+
+  /// The pipe to wait for; -1 when all writers have closed it.
+  [[nodiscard]] int pipe() const { return pipe_.get(); }
+  /// Reads the available bytes without waiting, but at most 4 MiB, so that a program that never
+  /// stops printing does not delay the time limit.
+  void drain();
+  /// The last 4 KiB. If there was more, the text starts with a whole line where that is possible.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  Descriptor pipe_;
+  std::string text_;
+};
+
+OutputTail::OutputTail(Descriptor pipe) : pipe_(std::move(pipe)) {
+  ::fcntl(pipe_.get(), F_SETFL, O_NONBLOCK);
+}
+
+void OutputTail::drain() {
+  char buffer[65536];
+  for (int reads = 0; pipe_.valid() && reads < 64; ++reads) {
+    const ssize_t got = ::read(pipe_.get(), buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return;
+    if (got == 0) pipe_.close();
+    text_.append(buffer, static_cast<std::size_t>(got));
+    if (text_.size() > 16 * kTailBytes) text_.erase(0, text_.size() - kTailBytes - 1);
+  }
+}
+
+std::string OutputTail::text() const {
+  if (text_.size() <= kTailBytes) return text_;
+  // The byte before the tail shows whether the tail starts a line.
+  const std::string tail = text_.substr(text_.size() - kTailBytes - 1);
+  const std::size_t line = tail.find('\n');
+  return tail.substr(line == std::string::npos || line + 1 == tail.size() ? 1 : line + 1);
+}
 
 /// Size on the disk of the files below a folder, and of deleted files on the same disk that
 /// `members` hold open. Files may disappear meanwhile: a file that cannot be read does not count.

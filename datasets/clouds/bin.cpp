@@ -274,8 +274,7 @@ void check_bin_width(const std::vector<std::filesystem::path>& scans,
 
 CloudFormat bin_format() {
   CloudFormat format{".bin", read_bin_cloud, read_bin_records};
-  format.encoder = [](const std::filesystem::path&,
-                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
     return std::make_unique<BinEncoder>();
   };
   format.lost = lost_in_bin;

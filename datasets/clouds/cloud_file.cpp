@@ -8,14 +8,10 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "datasets/clouds/format/cloud_header.h"
-#include "datasets/clouds/format/gzip.h"
 #include "datasets/clouds/poses.h"
 
 namespace raymoval {
 namespace {
-
-/// Last ending of a file that is compressed with gzip.
-constexpr const char* kPacked = ".gz";
 
 [[noreturn]] void throw_unknown(const std::filesystem::path& path,
                                 const std::vector<std::string>& known) {
@@ -41,16 +37,13 @@ void check_no_pointer(const std::filesystem::path& path, std::string_view text) 
                   "lfs pull`.");
 }
 
-/// Calls `read` with the content of a file of points, decompressed.
+/// Calls `read` with the content of a file of points.
 template <class Read>
-auto read_decompressed(const std::filesystem::path& path, const RecordReading& reading,
-                       Read&& read) {
+auto read_whole(const std::filesystem::path& path, const RecordReading& reading, Read&& read) {
   const std::vector<std::byte> bytes = read_bytes(path);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   check_no_pointer(path, text);
-  if (!is_compressed(path)) return read(CloudBytes{path, text, reading});
-  const std::string unpacked = decompress_gzip(text, path.string());
-  return read(CloudBytes{path, unpacked, reading});
+  return read(CloudBytes{path, text, reading});
 }
 
 }  // namespace
@@ -69,6 +62,7 @@ std::string conversion_text(const std::filesystem::path& path) {
       {".laz",
        "LAZ, compressed LAS, is not read or written. Decompress it first: laszip -i in.laz -o "
        "out.las, or pdal translate in.laz out.las."},
+      {".gz", "compressed files are not read. Decompress them: gunzip in.gz."},
       {".e57", "E57 is not read. " + each_scan("e57")},
       {".ptx", "PTX is not read. " + each_scan("ptx")},
       {".pts", "PTS is not read. " + each_scan("pts")},
@@ -89,6 +83,7 @@ std::string conversion_text(const std::filesystem::path& path) {
   // Other tables have names, such as poses.txt.
   const bool is_table = extension == ".txt" || extension == ".csv";
   if (is_table && !all_digits(path.stem().string())) return "";
+  if (extension == ".gz" && cloud_extension(path.stem()).empty()) return "";
   const auto found = texts.find(extension);
   return found == texts.end() ? "" : found->second;
 }
@@ -97,7 +92,6 @@ const std::vector<std::string>& cloud_extensions() {
   static const std::vector<std::string> extensions = [] {
     std::vector<std::string> all;
     for (const CloudFormat& format : cloud_formats()) all.push_back(format.extension);
-    for (const CloudFormat& format : cloud_formats()) all.push_back(format.extension + kPacked);
     return all;
   }();
   return extensions;
@@ -128,16 +122,11 @@ std::string cloud_stem(const std::filesystem::path& path) {
   return extension.empty() ? path.stem().string() : name.substr(0, name.size() - extension.size());
 }
 
-bool is_compressed(const std::filesystem::path& path) {
-  return cloud_extension(path).ends_with(kPacked);
-}
-
 namespace {
 
 /// @throws UsageError naming the supported endings if the ending of `path` is not among them
 const CloudFormat& format_read(const std::filesystem::path& path) {
-  std::string extension = cloud_extension(path);
-  if (is_compressed(path)) extension.resize(extension.size() - std::string_view(kPacked).size());
+  const std::string extension = cloud_extension(path);
   for (const CloudFormat& format : cloud_formats()) {
     if (format.extension == extension) return format;
   }
@@ -157,20 +146,20 @@ const CloudFormat& format_written(const std::filesystem::path& path) {
 Cloud read_cloud(const std::filesystem::path& path, const Eigen::Vector3d& origin,
                  const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  return read_decompressed(path, reading,
-                           [&](const CloudBytes& file) { return format.read_cloud(file, origin); });
+  return read_whole(path, reading,
+                    [&](const CloudBytes& file) { return format.read_cloud(file, origin); });
 }
 
 PointRecords read_records(const std::filesystem::path& path, const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  return read_decompressed(path, reading,
-                           [&](const CloudBytes& file) { return format.read_records(file); });
+  return read_whole(path, reading,
+                    [&](const CloudBytes& file) { return format.read_records(file); });
 }
 
 RecordLayout read_layout(const std::filesystem::path& path, const RecordReading& reading) {
   const CloudFormat& format = format_read(path);
-  const bool by_itself = format.read_layout != nullptr && !is_compressed(path);
-  return by_itself ? format.read_layout(path, reading) : read_records(path, reading).layout;
+  return format.read_layout != nullptr ? format.read_layout(path, reading)
+                                       : read_records(path, reading).layout;
 }
 
 Pose read_viewpoint(const std::filesystem::path& path) {
@@ -187,12 +176,6 @@ std::vector<std::string> format_losses(const std::filesystem::path& path,
   return format_written(path).lost(layout);
 }
 
-std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
-                                              const RecordLayout& layout) {
-  const CloudFormat& format = format_written(path);
-  return format.shown_intensity == nullptr ? std::nullopt : format.shown_intensity(layout);
-}
-
 void check_coordinates(const std::filesystem::path& path, Coordinates coordinates) {
   if (coordinates == Coordinates::kFloat || path.extension() != ".bin") return;
   throw UsageError(path.string() +
@@ -203,15 +186,14 @@ void check_coordinates(const std::filesystem::path& path, Coordinates coordinate
 
 std::string whole_file(const std::filesystem::path& path, const PointRecords& records) {
   (void)position_fields(records.layout, path.string());
-  const auto encoder = format_written(path).encoder(path, {});
+  const auto encoder = format_written(path).encoder(path);
   encoder->start(records);
   const std::string body = encoder->rows(records);
   return encoder->head(records.size()) + body;
 }
 
-PointRecordWriter::PointRecordWriter(const std::filesystem::path& path,
-                                     const RecordWriting& writing)
-    : encoder_(format_written(path).encoder(path, writing)), file_(path) {}
+PointRecordWriter::PointRecordWriter(const std::filesystem::path& path)
+    : encoder_(format_written(path).encoder(path)), file_(path) {}
 
 void PointRecordWriter::start(const RecordLayout& layout) {
   (void)position_fields(layout, file_.path().string());

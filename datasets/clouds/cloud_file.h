@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,7 @@
 
 namespace raymoval {
 
-/// Endings of files that can be read: ".pcd" and so on, also compressed with gzip: ".pcd.gz".
+/// Endings of files that can be read, ".pcd" and so on.
 const std::vector<std::string>& cloud_extensions();
 
 /// Endings of files that can be written, such as maps.
@@ -25,15 +24,12 @@ const std::vector<std::string>& written_extensions();
 /// The entry of `cloud_extensions` in which the name of `path` ends; empty if there is none.
 std::string cloud_extension(const std::filesystem::path& path);
 
-/// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.gz.
+/// The name of `path` without its folder and `cloud_extension`: "000123" of a/000123.pcd.
 std::string cloud_stem(const std::filesystem::path& path);
 
 /// For a known extension that is not supported: a sentence that names a program to convert the
 /// file. Empty for other extensions.
 std::string conversion_text(const std::filesystem::path& path);
-
-/// Whether `path` names a file of points that is compressed with gzip.
-bool is_compressed(const std::filesystem::path& path);
 
 /// Reads positions and intensities of the points of a file of any known format, see
 /// `cloud_extensions`.
@@ -83,12 +79,6 @@ RecordLayout read_layout(const std::filesystem::path& path, const RecordReading&
 std::vector<std::string> format_losses(const std::filesystem::path& path,
                                        const RecordLayout& layout);
 
-/// The field of `layout` that the format of `path` also stores as a rounded value, multiplied by
-/// `RecordWriting::intensity_scale`. Empty if there is none. @throws UsageError for an unknown
-/// extension
-std::optional<ShownIntensity> shown_intensity(const std::filesystem::path& path,
-                                              const RecordLayout& layout);
-
 /// The bytes of a file named `path` with these points.
 /// @throws UsageError for an unknown extension; DataError as `PointRecordWriter::add`
 std::string whole_file(const std::filesystem::path& path, const PointRecords& records);
@@ -105,7 +95,7 @@ void check_coordinates(const std::filesystem::path& path, Coordinates coordinate
 class PointRecordWriter {
  public:
   /// Opens the file. @throws UsageError for an unknown extension, DataError if it cannot be written
-  explicit PointRecordWriter(const std::filesystem::path& path, const RecordWriting& writing = {});
+  explicit PointRecordWriter(const std::filesystem::path& path);
 
   /// To be called once before `add`, with the layout that all pieces have.
   void start(const RecordLayout& layout);

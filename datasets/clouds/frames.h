@@ -29,7 +29,7 @@ struct NumberedFile {
   std::filesystem::path path;
 };
 
-/// Files of `folder` whose names end in one of `extensions` (".bin", ".pcd.gz"), hidden ones left
+/// Files of `folder` whose names end in one of `extensions` (".bin", ".pcd"), hidden ones left
 /// out, in natural order (digit runs compare as numbers, so scan_2 comes before scan_10).
 /// @throws DataError if the folder cannot be read
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder,

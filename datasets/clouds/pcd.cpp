@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <utility>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -280,8 +279,7 @@ CloudFormat pcd_format() {
   format.read_records = [](const CloudBytes& file) {
     return header_records(parse_pcd_header(file.text, file.path), file);
   };
-  format.encoder = [](const std::filesystem::path&,
-                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
     return std::make_unique<PcdEncoder>();
   };
   format.lost = lost_in_pcd;

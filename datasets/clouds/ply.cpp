@@ -298,8 +298,7 @@ CloudFormat ply_format() {
   format.read_records = [](const CloudBytes& file) {
     return header_records(parse_ply_header(file.text, file.path), file);
   };
-  format.encoder = [](const std::filesystem::path&,
-                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
     return std::make_unique<PlyEncoder>();
   };
   format.lost = lost_in_ply;

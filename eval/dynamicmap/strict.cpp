@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "eval/dynamicmap/strict.h"
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
 #include <utility>
 
 #include "core/error.h"
+#include "eval/built_in_protocols.h"
 #include "eval/dynamicmap/accuracy.h"
 #include "eval/dynamicmap/options.h"
 #include "eval/dynamicmap/truth_points.h"
@@ -139,6 +138,18 @@ class StrictScorer : public Scorer {
 
 }  // namespace
 
+/// SA, DA, AA and HA over sets of cells. There is no search, so nothing depends on a neighbour, an
+/// order or a tie.
+///
+/// The truth of the `dynamicmap` protocol, as two sets of cells on the lattice anchored at the
+/// world origin: cells with a static point and cells with a dynamic point (a cell may be in both).
+/// A static cell is preserved if a static point in it is kept, a dynamic one is cleared if no
+/// dynamic point in it is kept. So the oracle has SA 100 and DA 100, and neither a neighbour within
+/// reach nor a kept point of the other class helps. A cleaned cloud keeps the points that lie
+/// within 0.05 m of it.
+///
+/// Counts: static_voxels, dynamic_voxels, preserved_static, remaining_dynamic; mixed_voxels, which
+/// are in both sets; ego_points, out_of_range_points, ignored_points.
 ProtocolEntry strict_protocol_entry() {
   return {.name = "dynamicmap-strict",
           .version = "1",

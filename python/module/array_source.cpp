@@ -2,13 +2,16 @@
 #include "python/module/array_source.h"
 
 #include <algorithm>
+#include <cstring>
+#include <string>
 #include <utility>
 
 #include "core/error.h"
+#include "core/files/scratch_folder.h"
+#include "core/scan/scan_spool.h"
 #include "core/text.h"
 #include "datasets/clouds/returns.h"
 #include "python/module/interruptible.h"
-#include "python/module/point_spool.h"
 
 namespace raymoval::python {
 namespace {
@@ -48,6 +51,46 @@ class PythonSequence : public PointStore {
   SharedObject sequence_;
   std::size_t size_;
   mutable std::mutex mutex_;
+};
+
+ScanSpool generator_spool() {
+  return {0, scratch_root() / "raymoval-scans", "the scans of a generator (TMPDIR says where)"};
+}
+
+template <class Value>
+std::string bytes_of(const std::vector<Value>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+template <class Value>
+std::vector<Value> values_of(const std::string& bytes) {
+  std::vector<Value> values(bytes.size() / sizeof(Value));
+  if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
+  return values;
+}
+
+/// Keeps points in a file without a name below TMPDIR (else /tmp): 12 bytes a point, 16 with
+/// reflectance.
+class PointSpool : public PointStore {
+ public:
+  /// @throws DataError if the file cannot be made
+  PointSpool() : points_(generator_spool()), intensities_(generator_spool()) {}
+  /// Adds the next scan; no other thread reads meanwhile. @throws DataError if the disk is full
+  void add(const Cloud& cloud) {
+    points_.append(bytes_of(cloud.points));
+    intensities_.append(bytes_of(cloud.intensity));
+  }
+  [[nodiscard]] std::size_t size() const override { return points_.size(); }
+  /// @throws DataError if the file cannot be read
+  [[nodiscard]] Cloud points(std::size_t scan) const override {
+    Cloud cloud;
+    cloud.points = values_of<Eigen::Vector3f>(points_.get(scan));
+    cloud.intensity = values_of<float>(intensities_.get(scan));
+    return cloud;
+  }
+
+ private:
+  ScanSpool points_, intensities_;
 };
 
 std::shared_ptr<const PointStore> array_list(const py::object& scans) {

@@ -22,6 +22,5 @@ void bind_clean(py::module_& module);
 void bind_scores(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_pages(py::module_& module);
-void bind_first_hits(py::module_& module);
 
 }  // namespace raymoval::python

@@ -6,7 +6,6 @@
 #include "benchmark/process/method_run.h"
 #include "core/parallel.h"
 #include "python/module/bindings.h"
-#include "python/module/descriptions.h"
 #include "python/module/interruptible.h"
 #include "python/module/masks.h"
 #include "python/module/remover.h"
@@ -29,6 +28,20 @@ HeldMasks answer(const HeldSequence& held, const std::string& name, Remover& rem
   });
   if (held.arrays) masks.left_out = held.arrays->left_out();
   return masks;
+}
+
+/// A method of raymoval with values of its parameters.
+/// @param settings names and texts
+/// @throws UsageError, ConfigurationError that suggest the nearest name
+ConfiguredMethod configured_method(
+    const std::string& name, const std::vector<std::pair<std::string, std::string>>& settings) {
+  ConfiguredMethod method = MethodRegistry::built_in().configure(name);
+  const std::string& owner = method.entry->name;
+  for (const auto& [key, text] : settings) {
+    const ParameterSpec& spec = find_parameter(owner, method.entry->parameters, key);
+    set_parameter(method.configuration, key, checked_value_from_text(owner, spec, text));
+  }
+  return method;
 }
 
 /// @param settings values of parameters by name, as texts

@@ -17,5 +17,4 @@ PYBIND11_MODULE(_raymoval, module) {
   bind_scores(module);
   bind_runs(module);
   bind_pages(module);
-  bind_first_hits(module);
 }

@@ -24,7 +24,6 @@ struct RunRequest {
   std::vector<std::string> settings;  ///< "METHOD.key=value".
   bool controls = true;
   int threads = 0;
-  int repeats = 1;
 };
 
 void add_methods(const RunRequest& request, MethodRegistry& registry, Suite& suite) {
@@ -63,7 +62,6 @@ Suite suite_of(const RunRequest& request, MethodRegistry& registry) {
   if (request.controls) add_controls(suite, registry);
   suite.controls = request.controls;
   suite.threads = request.threads;
-  suite.repeats = request.repeats;
   return suite;
 }
 
@@ -74,9 +72,7 @@ py::dict dict_of(const RunSummary& summary, const std::vector<std::string>& with
   answer["failures"] = py::cast(summary.failures);
   answer["control_problems"] = py::cast(summary.controls);
   std::vector<std::string> warnings = without_effect;
-  for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
-    warnings.insert(warnings.end(), lines->begin(), lines->end());
-  }
+  warnings.insert(warnings.end(), summary.lost_scans.begin(), summary.lost_scans.end());
   answer["warnings"] = py::cast(warnings);
   return answer;
 }
@@ -84,8 +80,8 @@ py::dict dict_of(const RunSummary& summary, const std::vector<std::string>& with
 py::dict run(const std::vector<py::object>& sequences, const py::list& methods,
              const std::vector<std::string>& protocols, const std::vector<std::string>& settings,
              const std::string& out, bool controls, bool keep_removals, bool overwrite, int threads,
-             int repeats, const py::object& on_progress) {
-  const RunRequest request{sequences, methods, protocols, settings, controls, threads, repeats};
+             const py::object& on_progress) {
+  const RunRequest request{sequences, methods, protocols, settings, controls, threads};
   MethodRegistry registry = MethodRegistry::built_in();
   const Suite suite = suite_of(request, registry);
   RunSummary summary;
@@ -191,7 +187,7 @@ py::dict compare(const std::string& run, const std::string& reference,
 void bind_runs(py::module_& module) {
   module.def("run", &run, py::arg("sequences"), py::arg("methods"), py::arg("protocols"),
              py::arg("settings"), py::arg("out"), py::arg("controls"), py::arg("keep_removals"),
-             py::arg("overwrite"), py::arg("threads"), py::arg("repeats"), py::arg("on_progress"));
+             py::arg("overwrite"), py::arg("threads"), py::arg("on_progress"));
   module.def("load_run", &load_run, py::arg("folder"));
   module.def("summary_text", &summary_text, py::arg("folder"));
   module.def("compare", &compare, py::arg("run"), py::arg("reference"), py::arg("tolerances"),

@@ -10,23 +10,20 @@ of the sensor's frame to the world's. Functions that take long let other threads
 tqdm is installed (`progress=False` shows none; a function of yours is called with a
 `ProgressState`), and stop on Ctrl-C.
 """
-from raymoval._methods import (Method, Parameter, Protocol, Rate, Remover, Variant, describe,
-                               methods, protocols)
+from raymoval._methods import Remover, describe, methods, protocols
 from raymoval._pages import Page, show
 from raymoval._progress import ProgressState
-from raymoval._raymoval import (Bins, Cancelled, ConfigurationError, DataError, Error,
-                                FirstHitCaster, InternalError, Masks, MethodError, OccupancyMap,
-                                Scan, Scans, SensorModel, Sequence, Sink, UsageError, __version__,
-                                scenes, sensors)
+from raymoval._raymoval import (Cancelled, ConfigurationError, DataError, Error, InternalError,
+                                Masks, MethodError, Scan, Scans, SensorModel, Sequence, Sink,
+                                UsageError, __version__, scenes, sensors)
 from raymoval._results import (Comparison, ProtocolScore, Run, Scores, compare, load_run, run,
                                score)
 from raymoval._sequences import clean, estimate, from_arrays, open, refine, times
 
 __all__ = [
-    "Bins", "Cancelled", "Comparison", "ConfigurationError", "DataError", "Error",
-    "FirstHitCaster", "InternalError", "Masks", "Method", "MethodError", "OccupancyMap", "Page",
-    "Parameter", "ProgressState", "Protocol", "ProtocolScore", "Rate", "Remover", "Run", "Scan",
-    "Scans", "Scores", "SensorModel", "Sequence", "Sink", "UsageError", "Variant", "__version__",
+    "Cancelled", "Comparison", "ConfigurationError", "DataError", "Error", "InternalError",
+    "Masks", "MethodError", "Page", "ProgressState", "ProtocolScore", "Remover", "Run", "Scan",
+    "Scans", "Scores", "SensorModel", "Sequence", "Sink", "UsageError", "__version__",
     "clean", "compare", "describe", "estimate", "from_arrays", "load_run", "methods", "open", "protocols",
     "refine", "run", "scenes", "score", "sensors", "show", "times",
 ]

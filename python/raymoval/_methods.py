@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import copy
+import hashlib
 import inspect
+import pickle
 import re
-from dataclasses import dataclass
+import uuid
 from typing import Any, Optional, Union
 
 from raymoval import _raymoval
-from raymoval._versions import content_version
 
 Value = Union[bool, int, float, str]
 
@@ -73,10 +74,19 @@ def _parameters(method: Remover) -> dict[str, Value]:
 
 
 def _version(method: Remover) -> str:
-    """The method's own, or a hash of its code and of what it holds beside its parameters."""
+    """The method's own, or a hash of the source of its classes and of what the object holds beside
+    its parameters. Without a source, or with something that cannot be stored, a new one each time:
+    then no result is taken for that of this method."""
     if method.version is not None:
         return str(method.version)
-    return content_version(method, remover_name(method), Remover, _parameters(method))
+    classes = [kind for kind in type(method).__mro__ if kind not in Remover.__mro__]
+    parameters = _parameters(method)
+    held = sorted(item for item in vars(method).items() if item[0] not in parameters)
+    try:
+        content = pickle.dumps([[inspect.getsource(kind) for kind in classes], held], protocol=4)
+    except Exception:  # What objects raise that cannot be stored differs.
+        content = uuid.uuid4().bytes
+    return "python-" + hashlib.sha256(content).hexdigest()[:16]
 
 
 def entry(method: Union[Remover, type[Remover]]) -> dict[str, Any]:
@@ -110,100 +120,13 @@ def setting_text(name: str, value: Value) -> str:
                                f"{type(value).__name__}.")
 
 
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter of a method, or an option of a protocol."""
-
-    name: str
-    default: Value  #: Of the variant that was described.
-    unit: str  #: "m", "rad", "points"; empty for a ratio or a flag.
-    minimum: Optional[float]  #: None: no limit.
-    maximum: Optional[float]
-    choices: list[str]  #: Legal values of a text.
-    source: str  #: Paper, section, equation or table; empty: our own choice.
-    sentence: str
-    acts_when: str  #: When it has an effect; empty: always; "never": it changes time or memory only.
-    acts: bool  #: Whether it has an effect in this variant while the others have their defaults.
-
-
-@dataclass(frozen=True)
-class Variant:
-    """A named set of values of a method's parameters."""
-
-    name: str
-    sentence: str
-    online: bool
-    values: dict[str, Value]  #: Values that differ from the method's defaults.
-
-
-@dataclass(frozen=True)
-class Method:
-    """What is known of a method with a variant."""
-
-    name: str  #: With its variant, "raymoval:online".
-    sentence: str
-    source: str
-    version: str
-    online: bool
-    notes: list[str]  #: Decisions, and deviations from the paper.
-    variants: list[Variant]
-    parameters: list[Parameter]
-
-    def __getitem__(self, name: str) -> Parameter:
-        """The parameter with this name."""
-        return next(one for one in self.parameters if one.name == name)
-
-    def __str__(self) -> str:
-        return _table(f"{self.name} (version {self.version}): {self.sentence}", self.parameters)
-
-
-@dataclass(frozen=True)
-class Rate:
-    """What a rate of a protocol is."""
-
-    name: str
-    unit: str  #: "percent" or "fraction".
-    decimals: int
-    higher_is_better: bool
-    role: str  #: "kept", "removed", "headline", "mean" or "secondary".
-
-
-@dataclass(frozen=True)
-class Protocol:
-    """What is known of a protocol."""
-
-    name: str
-    sentence: str
-    version: str
-    options: list[Parameter]
-    rates: list[Rate]
-
-    def __str__(self) -> str:
-        return _table(f"{self.name} (version {self.version}): {self.sentence}", self.options)
-
-
-def _table(title: str, parameters: list[Parameter]) -> str:
-    lines = [title]
-    for one in parameters:
-        lines.append(f"  {one.name} = {one.default}{' ' + one.unit if one.unit else ''}   "
-                     f"{one.sentence}")
-    return "\n".join(lines)
-
-
-def describe(name: str) -> Union[Method, Protocol]:
-    """A method ("raymoval:online") or a protocol ("protocol:erasor") with its parameters.
+def describe(name: str) -> str:
+    """A method ("raymoval:online") or a protocol ("protocol:erasor") with its parameters, as
+    `raymoval describe --all` prints it.
 
     Raises UsageError that suggests the nearest name.
     """
-    if name.startswith("protocol:"):
-        told = _raymoval.describe_protocol(name.removeprefix("protocol:"))
-        told["options"] = [Parameter(**one) for one in told["options"]]
-        told["rates"] = [Rate(**one) for one in told["rates"]]
-        return Protocol(**told)
-    told = _raymoval.describe_method(name)
-    told["variants"] = [Variant(**one) for one in told["variants"]]
-    told["parameters"] = [Parameter(**one) for one in told["parameters"]]
-    return Method(**told)
+    return _raymoval.describe(name)
 
 
 def methods() -> list[str]:

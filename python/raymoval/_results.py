@@ -134,7 +134,7 @@ def run(sequences: Union[_raymoval.Sequence, Path, AnySequence[Union[_raymoval.S
         methods: Union[MethodLike, AnySequence[MethodLike]], *, out: Optional[Path] = None,
         protocols: Union[str, Iterable[str]] = ("erasor",),
         settings: Optional[Mapping[str, Value]] = None, controls: bool = True,
-        keep_removals: bool = False, overwrite: bool = False, threads: int = 0, repeats: int = 1,
+        keep_removals: bool = False, overwrite: bool = False, threads: int = 0,
         progress: Progress = True) -> Run:
     """Runs methods on sequences and scores them, as `raymoval run` does, in this process.
 
@@ -159,7 +159,7 @@ def run(sequences: Union[_raymoval.Sequence, Path, AnySequence[Union[_raymoval.S
     folder = os.fspath(out) if out is not None else temporary.name  # type: ignore[union-attr]
     with told(progress) as on_progress:
         summary = _raymoval.run(opened, given, names, _option_texts(settings), folder, controls,
-                                keep_removals, overwrite, threads, repeats, on_progress)
+                                keep_removals, overwrite, threads, on_progress)
     return Run(folder=folder, temporary=temporary, **summary)
 
 

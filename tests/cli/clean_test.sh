@@ -146,20 +146,7 @@ expect 2 "was not written by" clean drive "${online[@]}" --scans drive --overwri
 ln drive/poses.txt all/poses.pcd
 expect 2 "is read as an input" clean drive "${online[@]}" -o all/poses.pcd --overwrite
 expect 2 "not stored in files" clean street "${online[@]}" --scans map_scans
-expect 2 "not read or written" clean street "${online[@]}" --tile-format xyz --tiles 50 -o map_tiles
 nothing_left "a refusal of outputs"
-
-# Tiles hold together what the map holds.
-expect 0 "" clean drive "${online[@]}" -o tiles --tiles 20
-sum=0
-for tile in tiles/tile_*.pcd; do sum=$((sum + $(points "$tile"))); done
-holds "tiles have every point" test "$sum" -eq "$(points all/static.pcd)"
-holds "the manifest lists each" test "$(grep -c '"file"' tiles/manifest.json)" -eq "$(ls tiles/*.pcd | wc -l)"
-
-# Tiles of a mistaken unit are refused before the work.
-expect 2 "more than 10,000 tiles of 0.001 m, which is the limit of a map. Choose larger tiles" \
-  clean drive "${online[@]}" -o tiny --tiles 0.001
-holds "no folder of tiles is left" test ! -e tiny
 
 # Confidence is behind the other fields of each map, and changes no other output.
 expect 2 "raymoval has no confidence" clean drive "${online[@]}" -o sure.pcd --confidence

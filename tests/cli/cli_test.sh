@@ -20,7 +20,7 @@ for what in methods variants protocols columns sensors sequences scenes simulate
 expect 0 "FILE.db3 " list sequences
 expect 0 "a folder of .pcd, .ply, .bin, .las, .npy or .npz scans with poses.txt" list sequences
 for name in raymoval raymoval:online noop erasor dynamicmap protocol:erasor; do
-  for form in "" --markdown --json; do expect 0 "" describe "$name" ${form:+"$form"}; done
+  for form in "" --markdown; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done
 expect 0 "tau0" describe raymoval:offline --markdown
 holds "words in a table of parameters begin on the left" test -z "$(grep -e '-: |' out.txt)"
@@ -117,7 +117,7 @@ expect 2 "--with-published" table run --format csv --with-published
 expect 0 "| raymoval:online\\* " table run --rates F1,PR --decimals 1 --sort F1
 cp out.txt told.txt
 holds "the rates are in the order asked for" grep -qE '^\| method +\| +F1 \| +PR \|$' told.txt
-expect 0 "| Mine " table run --names 'raymoval:online*=Mine' --only 'street/raymoval*'
+expect 0 "| raymoval:online" table run --only 'street/raymoval*'
 cp out.txt told.txt
 holds "what was not chosen is left out" test -z "$(grep noop told.txt)"
 expect 0 "| sequence " table run --layout paper
@@ -130,7 +130,7 @@ note="tau0 = 0.2 (default 0.3)"
 expect 0 "raymoval:online\\*: $note" table run
 expect 0 "raymoval:online*: $note" table run --format tex
 expect 0 ",raymoval:online*" table run --format csv
-expect 0 "" picture run -o changed.svg --kind stages
+expect 0 "" picture run -o changed.svg --kind accuracy-time
 holds "a chart has the note" grep -qF "raymoval:online*: $note</text>" changed.svg
 expect 0 "named: $note" run "${short[@]}" --method raymoval:online --set raymoval.tau0=0.2 --as named --out named
 holds "a name of --as is that of the cell" test -s named/cells/street/named/cell.json
@@ -198,7 +198,7 @@ expect 0 "parameter tau0 is 0.4, the reference has 0.2" compare other_tau refere
   --across parameters --tolerance F1=1
 expect 2 "Did you mean 'parameters'" compare other_tau reference --across parameter
 expect 2 "Did you mean 'junit'" compare run reference --format junt
-for format in text md junit json; do
+for format in text md junit; do
   expect 2 "street / raymoval:online" compare other_tau reference --format $format -o compared.$format
   holds "a comparison is written as $format" grep -q "raymoval:online" compared.$format
 done
@@ -490,13 +490,11 @@ expect 0 "" picture shown -o map.png --quiet
 holds "a map is a PNG" is_png map.png
 expect 0 "" picture shown -o detail.png --only 'street/raymoval*' --crop -10:20:-8:8 \
   --resolution 0.25 --quiet
-expect 0 "" picture shown -o overview.png --kind overview --sequence street \
-  --method raymoval:online --quiet
-for file in detail overview; do holds "$file is a PNG" is_png $file.png; done
+holds "a detail is a PNG" is_png detail.png
 cp map.png before.png
 expect 0 "" picture shown -o map.png --overwrite --quiet --threads 1
 holds "the same run gives the same picture" cmp before.png map.png
-for kind in pr-rr stages accuracy-time; do
+for kind in pr-rr accuracy-time; do
   expect 0 "" picture shown -o $kind.svg --kind $kind
   holds "$kind is an SVG" grep -q '^<svg xmlns="http://www.w3.org/2000/svg"' $kind.svg
 done
@@ -504,17 +502,16 @@ expect 2 "no method has what --kind sweep shows" picture shown -o sweep.svg --ki
 expect 2 "RUN is missing" picture -o map.png --overwrite
 expect 2 "-o FILE.png" picture shown
 expect 2 "no such run folder" picture nowhere -o map.png --overwrite
-expect 2 "Did you mean 'overview'" picture shown -o map.png --overwrite --kind overvew
-expect 2 ".svg" picture shown -o map.jpg --kind stages
-expect 2 "--only" picture shown -o map.png --overwrite --method raymoval:online
-expect 2 "--crop needs --kind map or overview" picture shown -o a.svg --kind stages --crop 0:1:0:1
+expect 2 "Did you mean 'sweep'" picture shown -o map.png --overwrite --kind swep
+expect 2 ".svg" picture shown -o map.jpg --kind pr-rr
+expect 2 "--protocol needs a chart" picture shown -o map.png --overwrite --protocol erasor
+expect 2 "--crop needs --kind map" picture shown -o a.svg --kind pr-rr --crop 0:1:0:1
 expect 2 "XMIN:XMAX:YMIN:YMAX" picture shown -o map.png --overwrite --crop 5:1:0:1 --quiet
 expect 2 "--crop 1000:2000:1000:2000: no point lies there" \
   picture shown -o map.png --overwrite --crop 1000:2000:1000:2000 --quiet
 expect 2 "--size" picture shown -o map.png --overwrite --size 7 --quiet
 expect 2 "coarser --resolution" picture shown -o map.png --overwrite --resolution 0.0001 --quiet
 expect 2 "matches no cell" picture shown -o map.png --overwrite --only nothing --quiet
-expect 2 "Did you mean 'street'" picture shown -o a.png --kind overview --sequence stret --quiet
 expect 2 "--protocol" picture shown -o rates.svg --kind pr-rr --protocol erasr
 expect 2 "--keep-removals" picture run_scene -o map.png --overwrite --only '*' --quiet
 expect 2 "nothing but controls" picture run_scene -o map.png --overwrite --quiet

@@ -75,29 +75,10 @@ expect 0 "All controls have their expected scores" run --sequence street --frame
   --out inside
 holds "a process of its own changes no result" same_but_times options inside
 
-# Repeats: times only, methods in turn, the same answer each time.
-cat >repeats.json <<'JSON'
-{ "sequences": [{"path": "street", "frames": "0:2"}], "methods": ["comb", "comb2"], "repeats": 3,
-  "threads": 1 }
-JSON
-expect 0 "" run repeats.json --quiet --out repeats
-holds "each repeat has a file" test -s repeats/cells/street/comb-default/timing-3.json
-holds "controls are not repeated" test ! -e repeats/cells/street/noop-default/timing-2.json
-order=$(stat -c '%.9Y %n' repeats/cells/street/comb*/*.json | sort -n | sed 's|.*street/||' | tr '\n' ' ')
-holds "methods take turns" test "$order" = "comb-default/cell.json comb2-default/cell.json \
-comb-default/timing-2.json comb2-default/timing-2.json comb-default/timing-3.json \
-comb2-default/timing-3.json "
-holds "results tell all times" test "$(grep -c '"repeats": \[' repeats/results.json)" -eq 2
-expect 0 "0 of 5 cells" run repeats.json --quiet --out repeats --explain
-rm repeats/cells/street/comb-default/timing-2.json
-expect 0 "comb:default: repeat 2 is not there yet" run repeats.json --quiet --out repeats --explain
-sed -i 's/"comb2"/"unsteady"/' repeats.json
-expect 1 "removed other points" run repeats.json --quiet --out repeats
-
 expect 2 "starts by itself" run-method 3<&- 4<&-
 # A shell's own files may be open where the order and the answer are.
 expect 2 "starts by itself" run-method 3</dev/null 4</dev/null
-expect 2 "starts by itself" run-method 3<repeats.json 4</dev/null
+expect 2 "starts by itself" run-method 3<two.json 4</dev/null
 for wrong in 0 -1 soon; do
   expect 2 "--time-limit" run "${short[@]}" --method comb --time-limit $wrong --out o
   expect 2 "--memory-limit" run "${short[@]}" --method comb --memory-limit $wrong --out o

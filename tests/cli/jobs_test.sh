@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Cells that run at once (run --jobs), and times that compare --speed judges.
+# Cells that run at once (run --jobs).
 # Usage: jobs_test.sh PATH/TO/raymoval_faulty
 set -uo pipefail
 raymoval=$(readlink -f "$1")
@@ -9,8 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 cat >suite.json <<'JSON'
 { "sequences": [{"path": "street", "name": "a", "frames": "0:1"},
                 {"path": "street", "name": "b", "frames": "3:5"}],
-  "methods": ["comb", "comb2", "crash", "raymoval:online"], "protocols": ["erasor", "dynamicmap"],
-  "repeats": 2 }
+  "methods": ["comb", "comb2", "crash", "raymoval:online"], "protocols": ["erasor", "dynamicmap"] }
 JSON
 # The same files except for times, and for the note that times were measured side by side.
 expect 1 "b / crash:default: crashed: signal 11" run suite.json --quiet --threads 1 --keep-removals --out one
@@ -19,7 +18,6 @@ sed -i '/"jobs": 3/d; s/"threads": 1,$/"threads": 1/' three/run.json three/resul
 sed -i 's/"threads": 1,$/"threads": 1/' one/run.json one/results.json
 holds "jobs change no result" same_but_times one three
 holds "cells say how they were timed" grep -q '"side_by_side": 3' three/cells/b/comb-default/cell.json
-holds "so do repeats" grep -q '"side_by_side": 3' three/cells/b/comb-default/timing-2.json
 holds "alone they say nothing" test "$(grep -rl side_by_side one | wc -l)" -eq 0
 holds "tables say it" grep -q "Up to 3 cells ran in parallel" three/table.md
 holds "nothing that was started is left" test -z "$(left_over)"
@@ -73,30 +71,4 @@ expect 0 "not compared: times were not taken alike" compare beside alone
 expect 2 "times were not taken alike" compare beside alone --time-band 1000
 expect 0 "no regression" compare beside beside --time-band 1000
 
-# compare --speed: whole cells, relative to a fixed kernel.
-speed() { # FILE WHOLE METHOD: hand-written times
-  cat >"$1" <<JSON
-{ "schema_version": 1, "scene": "town:scans=30", "scans": 30, "threads": 1, "repetitions": 5,
-  "yardstick": {"name": "a yardstick 1", "milliseconds": 100.0},
-  "cells": [{"method": "$3",
-    "whole": {"milliseconds": 1, "relative": {"median": $2, "min": 1, "max": 20}},
-    "load": {"milliseconds": 1, "relative": {"median": 0.1, "min": 1, "max": 2}},
-    "run": {"milliseconds": 1, "relative": {"median": 8.0, "min": 1, "max": 2}},
-    "score": {"milliseconds": 1, "relative": {"median": 1.9, "min": 1, "max": 2}}}] }
-JSON
-}
-mkdir kernels
-speed kernels/speed.json 10.0 raymoval:online
-speed same.json 12.9 raymoval:online
-speed slow.json 13.1 raymoval:online
-speed other.json 10.0 octomap:r20
-expect 0 "no regression" compare --speed same.json kernels
-expect 1 "the whole cell takes 1.31 times the reference" compare --speed slow.json kernels
-expect 0 "no regression" compare --speed slow.json kernels/speed.json --time-band 1.5
-expect 2 "folders that scripts/benchmark.sh wrote" compare --speed . kernels
-expect 2 "raymoval:online is missing in the run" compare --speed other.json kernels
-echo '{' >torn.json
-expect 2 "this is not JSON" compare --speed same.json torn.json
-expect 2 "it can be combined with --time-band alone" compare --speed same.json kernels --tolerance F1=1
-expect 2 "nothing.json: no such file" compare --speed same.json nothing.json
 finish jobs

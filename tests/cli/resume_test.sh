@@ -13,7 +13,6 @@ cat >suite.json <<'JSON'
                 {"path": "street", "name": "b", "frames": "4:6"}],
   "methods": ["comb", {"method": "comb2", "set": {"milliseconds": 5}}],
   "protocols": ["erasor"],
-  "repeats": 2,
   "threads": 1 }
 JSON
 run=(run suite.json --quiet --keep-removals)
@@ -74,8 +73,6 @@ sed 's/"erasor"/{"protocol": "erasor", "set": {"voxel_size": 0.3}}/' suite.json 
 stale 10 "protocol erasor options voxel_size was 0.2, is 0.3"
 sed 's/"erasor"/"erasor", {"protocol": "erasor", "as": "again"}/' suite.json >changed.json
 stale 10 "protocol again is new"
-sed 's/"repeats": 2/"repeats": 3/' suite.json >changed.json
-stale 4 "repeat 3 is not there yet"
 cp suite.json changed.json
 export FAULTY_VERSION=2
 stale 4 'run   b / comb:default: method version was "1", is "2"' "keep  b / noop:default"
@@ -96,7 +93,8 @@ expect 0 "10 of 10 cells are to be run" "${run[@]}" --explain --out nowhere
 holds "an explanation makes no folder" test ! -e nowhere
 
 # Parts of a run, and what is made of them.
-for i in 1 2 3; do expect 0 "" "${run[@]}" --shard $i/3 --out part$i; done
+only=(a 'b/comb*' 'b/[nor]*')
+for i in 1 2 3; do expect 0 "" "${run[@]}" --only "${only[i - 1]}" --out part$i; done
 holds "parts do not overlap" test "$(cat part?/results.csv | grep -c ,erasor,)" -eq 10
 expect 0 "not run" table part2
 mkdir merged
@@ -111,8 +109,7 @@ holds "then it is whole again" same_but_times whole merged
 expect 0 "not run" "${run[@]}" --only 'a/comb*' --out some
 holds "only what was asked for is run" test "$(find some -name cell.json | wc -l)" -eq 2
 expect 2 "Did you mean 'a/noop:default'" "${run[@]}" --only a/nop:default --out some
-for wrong in 0/3 4/3 1 a/b 1/2/3; do expect 2 "--shard" "${run[@]}" --shard $wrong --out o; done
-expect 2 "leave out" "${run[@]}" --collect --shard 1/2 --out o
+expect 2 "leave out" "${run[@]}" --collect --only a --out o
 expect 2 "--cell cannot be combined with" "${run[@]}" --cell a/noop:default --explain --out o
 
 # Cell by cell, several at a time, as a scheduler does it.

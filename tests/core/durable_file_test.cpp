@@ -136,40 +136,6 @@ TEST_CASE("All of a file is on the disk before it gets its name, and its name is
   CHECK(requests[2].path == path.parent_path());
 }
 
-TEST_CASE("A file that is on the disk already is put there again only for what came since") {
-  const TemporaryFolder folder;
-  FileWriter file(folder.path() / "a.txt");
-  file.append("ab");
-  {
-    const Recording begun;
-    file.sync();
-    file.sync();
-    CHECK(requests.size() == 1);
-    file.overwrite(0, "c");
-    file.sync();
-    CHECK(requests.size() == 2);
-    file.append("d");
-    file.commit();
-  }
-  REQUIRE(requests.size() == 5);
-  CHECK(requests[2].bytes == 3);
-  CHECK(requests[3].what == "rename");
-  CHECK(read_text(folder.path() / "a.txt") == "cbd");
-}
-
-TEST_CASE("A file in the working folder has its name on the disk, too") {
-  const TemporaryFolder folder;
-  const std::filesystem::path before = std::filesystem::current_path();
-  std::filesystem::current_path(folder.path());
-  {
-    const Recording begun;
-    write_atomically("a.txt", "x");
-  }
-  std::filesystem::current_path(before);
-  REQUIRE(requests.size() == 3);
-  CHECK(requests[2].path == std::filesystem::canonical(folder.path()));
-}
-
 TEST_CASE("A file that does not reach the disk is told, and what was there stays") {
   const TemporaryFolder folder;
   const auto path = folder.write("a.txt", "before");
@@ -189,26 +155,6 @@ TEST_CASE("A file that does not reach the disk is told, and what was there stays
   }
   CHECK(read_text(path) == "before");
   CHECK(entries_in(folder.path()) == 1);
-}
-
-TEST_CASE(
-    "A folder whose names do not reach the disk is told, unless its file system has no such") {
-  const TemporaryFolder folder;
-  const auto path = folder.path() / "a.txt";
-  for (const int reason : {EINVAL, ENOTSUP, ENOSYS}) {
-    const Refusing names({.sync_folder = reason});
-    CHECK_NOTHROW(write_atomically(path, "some text"));
-    CHECK_NOTHROW(sync_folder(folder.path()));
-  }
-  const Refusing names({.sync_folder = EIO});
-  CHECK_THROWS_WITH(write_atomically(path, "other text"),
-                    Contains(folder.text() + ": it cannot be synchronised to the disk "
-                                             "(Input/output error)"));
-  CHECK(read_text(path) == "other text");  // It has its name already.
-  CHECK_THROWS_AS(sync_folder(folder.path()), DataError);
-  CHECK_THROWS_WITH(sync_folder(folder.path() / "none"),
-                    Contains("none: cannot be opened (No such file or directory), so files in it "
-                             "cannot be synchronised to the disk."));
 }
 
 TEST_CASE(
@@ -294,30 +240,6 @@ TEST_CASE(
   ::umask(usual);
   CHECK(all_rights_of(file) == 0666);
   CHECK(all_rights_of(link) == 0666);  // Links have all rights, which are none.
-}
-
-TEST_CASE("A file is written where its folder may not be listed") {
-  const TemporaryFolder folder;
-  const pid_t child = ::fork();
-  if (child == 0) {
-    bool done = ::chdir(folder.text().c_str()) == 0 && ::mkdir("closed", 0700) == 0;
-    if (::geteuid() == 0) {  // Root may list everything.
-      for (const char* place : {".", "closed"}) done = ::chown(place, 12, 34) == 0 && done;
-      done = ::setgid(34) == 0 && ::setuid(12) == 0 && done;
-    }
-    done = ::chmod("closed", 0300) == 0 && done;
-    try {
-      write_atomically("closed/a.txt", "x");
-    } catch (...) {
-      done = false;
-    }
-    (void)::chmod("closed", 0700);
-    ::_exit(done ? 0 : 1);
-  }
-  int status = -1;
-  ::waitpid(child, &status, 0);
-  CHECK(status == 0);
-  CHECK(read_text(folder.path() / "closed/a.txt") == "x");
 }
 
 TEST_CASE("A file that gets its name with others is on the disk before, and nobody's part after") {

@@ -71,25 +71,6 @@ TEST_CASE("The exception of the lowest chunk is thrown") {
   }
 }
 
-TEST_CASE("The exception of the lowest chunk is thrown, also if it comes last") {
-  // Every chunk throws. Chunk 0 waits until some thread has thrown, been caught and gone on to a
-  // further chunk, so that its error is never the first one.
-  if (hardware_threads() < 2) return;  // One thread takes the chunks in their order.
-  std::mutex mutex;
-  std::set<std::thread::id> threw;
-  std::atomic<bool> one_is_kept = false;
-  const auto body = [&](std::size_t chunk) {
-    if (chunk == 0) {
-      while (!one_is_kept) std::this_thread::yield();
-    } else {
-      const std::lock_guard lock(mutex);
-      if (!threw.insert(std::this_thread::get_id()).second) one_is_kept = true;
-    }
-    throw std::runtime_error(std::to_string(chunk));
-  };
-  CHECK_THROWS_WITH(parallel_for(2, 100, 1, body), "0");
-}
-
 TEST_CASE("A loop within a loop visits everything, on no more threads than were asked for") {
   for (const int threads : {1, 2, 3, 8}) {
     for (const int inner_threads : {1, 2, 8}) {
@@ -112,17 +93,6 @@ TEST_CASE("A loop within a loop visits everything, on no more threads than were 
       // Loops of different numbers of threads have threads of their own.
       if (inner_threads == 1 || inner_threads == threads) CHECK(most <= threads);
     }
-  }
-}
-
-TEST_CASE("The exception of a loop within a loop comes out of both") {
-  for (const int threads : {1, 2, 8}) {
-    const auto inner = [&](std::size_t outer) {
-      parallel_for(threads, 50, 1, [&](std::size_t i) {
-        if (outer >= 3 && i >= 7) throw std::runtime_error(std::to_string(outer * 100 + i));
-      });
-    };
-    CHECK_THROWS_WITH(parallel_for(threads, 10, 1, inner), "307");
   }
 }
 

@@ -251,6 +251,7 @@ TEST_CASE("formats that are not read are named with a program that converts them
                                                         {"a.ptx", "CloudCompare"},
                                                         {"a.pts", "CloudCompare"},
                                                         {"a.laz", "laszip"},
+                                                        {"a.pcd.gz", "gunzip"},
                                                         {"a.pcap", "ouster-cli"},
                                                         {"a.osf", "ouster-cli"},
                                                         {"a.xyz", "numpy.loadtxt"},

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
-#include <set>
 
 #include "eval/bootstrap.h"
 
@@ -52,38 +51,6 @@ TEST_CASE("an interval is of the draws that are left when both tails are cut off
       CHECK(result.rates[0].high == rate.drawn[rate.drawn.size() - 1 - cut]);
     }
   }
-}
-
-TEST_CASE("each replicate is of whole blocks and of a shorter one that fills up", "[bootstrap]") {
-  // Seven scans: blocks of three, two of them and one scan. Digits to the base of ten say how often
-  // a scan was drawn.
-  SumRate rate;
-  const Intervals result = bootstrap(single_counts({1, 10, 100, 1000, 10000, 100000, 1000000}),
-                                     [&](const Sums& sums) { return rate(sums); });
-  CHECK(result.scans == 7);
-  REQUIRE(result.block_scans == 3);
-  std::set<double> expected;
-  const auto power = [](std::size_t scan) { return std::pow(10.0, static_cast<double>(scan % 7)); };
-  const auto block = [&](std::size_t first) {
-    return power(first) + power(first + 1) + power(first + 2);
-  };
-  for (std::size_t a = 0; a < 7; ++a) {
-    for (std::size_t b = 0; b < 7; ++b) {
-      for (std::size_t c = 0; c < 7; ++c) expected.insert(block(a) + block(b) + power(c));
-    }
-  }
-  const std::set<double> drawn(rate.drawn.begin(), rate.drawn.end());
-  CHECK(std::includes(expected.begin(), expected.end(), drawn.begin(), drawn.end()));
-  // Nearly all possible draws occur in 1,000 replicates.
-  CHECK(10 * drawn.size() > 9 * expected.size());
-}
-
-TEST_CASE("scans that fill whole blocks leave none to fill up with", "[bootstrap]") {
-  SumRate rate;
-  const Intervals result = bootstrap(single_counts({1, 1, 1, 1, 1, 1, 1, 1, 1}),
-                                     [&](const Sums& sums) { return rate(sums); });
-  REQUIRE(result.block_scans == 3);
-  CHECK(std::all_of(rate.drawn.begin(), rate.drawn.end(), [](double sum) { return sum == 9.0; }));
 }
 
 TEST_CASE("the draws are those of the seed, so that intervals can be made again", "[bootstrap]") {
@@ -140,16 +107,6 @@ TEST_CASE("a rate that is undefined in more than half of the replicates has no i
   CHECK(defined_in(500).low == 1.0);
   CHECK_FALSE(defined_in(499).low);
   CHECK(defined_in(499).undefined_reason == "the rate is undefined in most replicates");
-}
-
-TEST_CASE("the options of intervals are told with them", "[bootstrap]") {
-  SumRate rate;
-  const Intervals result =
-      bootstrap(single_counts({1, 2, 3, 4}), [&](const Sums& sums) { return rate(sums); });
-  CHECK(result.options.replicates == 1000);
-  CHECK(result.options.level == 0.95);
-  CHECK(result.options.seed == 20260101);
-  CHECK(rate.drawn.size() == 1000);
 }
 
 }  // namespace raymoval::test

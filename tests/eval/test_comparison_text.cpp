@@ -128,14 +128,6 @@ TEST_CASE("Rates that differ by rounding only are the same") {
   CHECK(compared_one(cell_of("a", 98.875 - 1.5e-9, 990), reference, tenth).worse.size() == 1);
 }
 
-TEST_CASE("A rate that is undefined on both sides is the same, one that comes up is worse") {
-  const ComparedCell undefined = cell_of("a", std::nullopt, 990);
-  CHECK(compared_one(undefined, undefined).same_cells == 1);
-  const Comparison defined = compared_one(cell_of("a", 99.0, 990), undefined);
-  CHECK_THAT(defined.worse.at(0), Contains("PR undefined -> 99.0000"));
-  CHECK(defined.scores[0].rates.at(0).change == Change::kWorse);
-}
-
 TEST_CASE("A score that only the run has is told") {
   ComparedCell run = cell_of("a", 99.0, 990);
   run.scores.push_back(run.scores[0]);
@@ -155,52 +147,6 @@ TEST_CASE("A control's time is not judged") {
   const Comparison result = compared_one(run, reference, {{}, 2.0});
   CHECK(result.verdict() == ExitCode::kDone);
   CHECK(result.times.empty());
-}
-
-TEST_CASE("A time at its band is no worse, and one beyond says by how much") {
-  ComparedCell run = cell_of("a", 99.0, 990), reference = run;
-  reference.seconds_per_scan = 0.125;
-  run.seconds_per_scan = 0.25;
-  CHECK(compared_one(run, reference, {{}, 2.0}).worse.empty());
-  run.seconds_per_scan = 0.375;
-  CHECK(compared_one(run, reference, {{}, 2.0}).worse ==
-        std::vector<std::string>{"s / a: 3.00 times the reference (375.0 ms per scan, was 125.0), "
-                                 "more than 2 times"});
-  reference.seconds_per_scan = 0.0;  // No comparison is possible.
-  CHECK(compared_one(run, reference).times.empty());
-}
-
-TEST_CASE("A run is better only without anything worse") {
-  const ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
-  const ResultSet better{{cell_of("a", 99.5, 995), cell_of("b", 99.0, 990)}, {}};
-  const ResultSet mixed{{cell_of("a", 99.5, 995), cell_of("b", 98.0, 980)}, {}};
-  CHECK(compare_results(better, reference, {}).verdict_words() == "better, no regression");
-  CHECK(compare_results(mixed, reference, {}).verdict_words() == "worse");
-  CHECK(compare_results(reference, reference, {}).verdict_words() == "no regression");
-}
-
-TEST_CASE("What moves in one protocol is not undone by another that is the same") {
-  ComparedCell reference = cell_of("a", 99.0, 990);
-  reference.scores.push_back(reference.scores[0]);
-  reference.scores[1].protocol = "other";
-  ComparedCell run = reference;
-  run.scores[0].counts[0].second = 989;
-  CHECK(compared_one(run, reference).same_cells == 0);
-  CHECK(compared_one(reference, reference).same_cells == 1);
-}
-
-TEST_CASE("Other parameters are all that differs only if nothing else does") {
-  ComparedCell other = cell_of("b", 99.0, 990);
-  other.identity["parameter x"] = "1";
-  const ResultSet reference{{cell_of("b", 99.0, 990), cell_of("c", 99.0, 990)}, {}};
-  const ResultSet parameters{{other, cell_of("c", 99.0, 990)}, {}}, also_missing{{other}, {}};
-  CHECK(compare_results(parameters, reference, {}).parameters_only);
-  CHECK_FALSE(compare_results(also_missing, reference, {}).parameters_only);
-  const ResultSet turned{{cell_of("c", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
-  CHECK_FALSE(compare_results(also_missing, turned, {}).parameters_only);
-  CHECK_FALSE(compare_results(turned, reference, {}).parameters_only);
-  const ResultSet only_c{{cell_of("c", 99.0, 990)}, {}};
-  CHECK_FALSE(compare_results(only_c, reference, {}).parameters_only);
 }
 
 TEST_CASE("A change of status is told for each score that one side has") {
@@ -225,24 +171,6 @@ TEST_CASE("A change of status is told for each score that one side has") {
   failed.identity.clear();
   CHECK(compared_one(ok, failed).verdict() == ExitCode::kDone);
   CHECK(compared_one(failed, ok).verdict() == ExitCode::kWorse);
-}
-
-TEST_CASE("A cell of other data is told for each score of the reference") {
-  ComparedCell run = cell_of("a", 99.0, 990);
-  run.identity["data fingerprint"] = "xyz";
-  run.scores.clear();
-  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
-  REQUIRE(result.scores.size() == 1);
-  CHECK(result.scores[0].protocol == "erasor");
-  CHECK(result.scores[0].change == Change::kIncomparable);
-}
-
-TEST_CASE("A new count is worse, however much better the rate") {
-  ComparedCell run = cell_of("a", 99.5, 995);
-  run.scores[0].counts.emplace_back("fresh", 1);
-  const Comparison result = compared_one(run, cell_of("a", 99.0, 990));
-  CHECK(result.verdict() == ExitCode::kWorse);
-  CHECK(result.scores[0].rates.at(0).change == Change::kBetter);
 }
 
 TEST_CASE("Across parameters counts that move alone are told as that") {
@@ -280,24 +208,6 @@ TEST_CASE("The same words of other protocols and other words of one have lines o
                       "  s / b, erasor: protocol version is 2, the reference has 1\n"));
 }
 
-TEST_CASE("Several changes of one cell and protocol name the cell once") {
-  ComparedCell run = cell_of("a", 99.0, 990);
-  run.method_version = "2";
-  const ResultSet two{{run, cell_of("b", 99.0, 990)}, {}};
-  const ResultSet reference{{cell_of("a", 99.0, 990), cell_of("b", 99.0, 990)}, {}};
-  const Comparison result = compare_results(two, reference, {});
-  CHECK(result.moved == std::vector<std::string>{"s / a: method version 1 -> 2"});
-  CHECK(result.verdict() == ExitCode::kDone);
-}
-
-TEST_CASE("A run that is whole again says nothing of an old reason") {
-  ComparedCell run = cell_of("a", 99.0, 990), failed = run;
-  run.reason = "left over";
-  failed.status = "failed";
-  failed.reason = "no idea";
-  CHECK(compared_one(run, failed).better == std::vector<std::string>{"s / a: failed -> ok"});
-}
-
 TEST_CASE("Times that are not there are not told") {
   ComparedCell timed = cell_of("a", 99.0, 990), timeless = timed;
   timed.seconds_per_scan = 0.1;
@@ -307,21 +217,6 @@ TEST_CASE("Times that are not there are not told") {
   CHECK(compare_results(here, there, {}).times.empty());
   CHECK(compare_results(here, none, {{}, 3.0}).incomparable ==
         std::vector<std::string>{"the reference has no cell"});
-}
-
-TEST_CASE("A rate has a tolerance if one is given, or none at all across parameters") {
-  ComparedCell reference = cell_of("a", 99.0, 990);
-  reference.scores[0].rates.push_back({"spread", 3.0, ""});
-  ComparedCell run = reference;
-  CHECK_FALSE(compared_one(run, reference).scores.at(0).rates.at(0).tolerance);
-  CHECK(compared_one(run, reference, {{{"PR", 0.5}}, {}}).scores.at(0).rates.at(0).tolerance ==
-        0.5);
-  run.identity["parameter x"] = "1";
-  ComparisonOptions options;
-  options.across_parameters = true;
-  const Comparison across = compared_one(run, reference, options);
-  CHECK(across.scores.at(0).rates.at(0).tolerance == 0.0);
-  CHECK_FALSE(across.scores.at(0).rates.at(1).tolerance);  // The better direction is unknown.
 }
 
 TEST_CASE("A rate that rises does not outweigh one that falls within its tolerance") {

@@ -110,14 +110,6 @@ TEST_CASE("counts are summed over scans", "[counts]") {
   CHECK(score_by("dynamicmap", far_end.input(), far_end.masks()).count("static_points") == 1);
 }
 
-TEST_CASE("a range below one metre is a limit, too", "[counts]") {
-  LabelledScan scan;
-  scan.add(0.25f, 0.0f, 0.0f, 40);
-  scan.add(0.75f, 0.0f, 0.0f, 40);
-  CHECK(score_scans("dynamicmap", {scan}, {{"maximum_range", 0.5}}).count("static_points") == 1);
-  CHECK(score_scans("dynamicmap", {scan}, {{"maximum_range", 0.0}}).count("static_points") == 2);
-}
-
 TEST_CASE("masks of more scans than there are are the method's error", "[counts]") {
   const MemorySequence sequence({row_with({{40, false}, {252, true}})});
   MaskStore masks(2);
@@ -130,34 +122,6 @@ TEST_CASE("masks of more scans than there are are the method's error", "[counts]
   EvaluationInput unlabelled = sequence.input();
   unlabelled.labels = nullptr;
   CHECK_THROWS_AS(tally_removals(unlabelled, sequence.masks()), DataError);
-}
-
-TEST_CASE("only the labels 0 and 1 near the sensor are the ego vehicle", "[counts]") {
-  LabelledScan scan;
-  for (const std::uint32_t label : {0U, 1U, 2U}) {
-    scan.add(0.5f, static_cast<float>(label), 0.0f, label);
-  }
-  const MemorySequence sequence({scan});
-  EvaluationInput input = sequence.input();
-  CHECK(score_by("dynamicmap", input, sequence.masks()).count("ego_points") == 2);
-  // If 1 is the moving class, 0 is the static class.
-  input.label_rule = LabelRule{"binary", {1}, {}, {}};
-  const ProtocolResult binary = score_by("dynamicmap", input, sequence.masks());
-  CHECK(binary.count("ego_points") == 0);
-  CHECK(binary.count("static_points") == 2);
-  CHECK(binary.count("dynamic_points") == 1);
-  input.label_rule = LabelRule{"binary", {0}, {}, {}};
-  CHECK(score_by("dynamicmap", input, sequence.masks()).count("ego_points") == 0);
-}
-
-TEST_CASE("an estimate is empty only if nothing at all is kept", "[counts]") {
-  for (const char* protocol : {"dynamicmap", "dynamicmap-strict"}) {
-    CAPTURE(protocol);
-    CHECK(score_scans(protocol, {row_with({{40, true}, {252, true}})}).warnings.size() == 1);
-    CHECK(score_scans(protocol, {row_with({{40, true}, {252, false}})}).warnings.empty());
-    CHECK(score_scans(protocol, {row_with({{40, false}, {252, true}})}).warnings.empty());
-    CHECK(score_scans(protocol, {row_with({{40, false}, {252, false}})}).warnings.empty());
-  }
 }
 
 TEST_CASE("a kept point a metre and a half away is near within two metres", "[counts]") {
@@ -192,55 +156,6 @@ TEST_CASE("a kept point beyond any wall of the cells that are searched is found"
   }
 }
 
-TEST_CASE("of equally near partners a later one in cell order does not count", "[counts]") {
-  // Cells of 0.25 m. The flagged point in the middle of its cell has one kept point 0.15625 m above
-  // it in x, and one as far above it in y, which comes later.
-  for (const bool moving_above : {true, false}) {
-    LabelledScan scan;
-    scan.add(5.125f, 0.125f, 0.125f, 40, true);
-    scan.add(5.28125f, 0.125f, 0.125f, moving_above ? 252 : 40);
-    scan.add(5.125f, 0.28125f, 0.125f, moving_above ? 40 : 252);
-    const ProtocolResult result =
-        score_scans("erasor", {scan}, {{"voxel_size", 0.25}, {"lift", 0.0}});
-    CHECK(result.count("static_voxels") == 2);
-    CHECK(result.count("preserved_static") == (moving_above ? 1 : 2));
-  }
-}
-
-TEST_CASE("a voxel of the truth beyond the last one of the estimate has no partner", "[counts]") {
-  const Settings same_cell = {{"matching", std::string("same_cell")}};
-  const ProtocolResult result =
-      score_scans("erasor", {row_with({{40, false}, {252, false}, {40, true}})}, same_cell);
-  CHECK(result.count("preserved_static") == 1);
-  CHECK(result.count("remaining_dynamic") == 1);
-}
-
-TEST_CASE("unlabelled voxels are left out of PR only where they stand", "[counts]") {
-  const Settings leave_out = {{"ignore_0_1", true}};
-  const std::vector<LabelledScan> scans = {
-      row_with({{0, false}, {1, false}, {2, false}, {40, false}})};
-  CHECK(score_scans("erasor", scans, leave_out).count("static_voxels") == 2);
-  const MemorySequence sequence(scans);
-  EvaluationInput input = sequence.input();
-  input.label_rule = LabelRule{"binary", {1}, {}, {}};
-  const ProtocolResult binary = score_by("erasor", input, sequence.masks(), leave_out);
-  CHECK(binary.count("dynamic_voxels") == 1);
-  CHECK(binary.count("static_voxels") == 2);
-}
-
-TEST_CASE("a truck of an early scan is counted both ways, too", "[counts]") {
-  const LabelledScan truck = row_with({{40, false}, {258, true}}), road = row_with({{40, false}});
-  CHECK(score_scans("erasor", {truck, road}).rate("RR_no_truck") == std::nullopt);
-  CHECK(score_scans("erasor", {truck, road}).count("static_voxels_no_truck") == 2);
-  CHECK(score_scans("erasor", {road, truck}).count("static_voxels_no_truck") == 2);
-}
-
-TEST_CASE("voxels of the labels 0 and 1 are counted as unlabelled", "[counts]") {
-  const ProtocolResult result =
-      score_scans("erasor", {row_with({{0, false}, {1, false}, {2, false}, {40, false}})});
-  CHECK(result.count("unlabelled_voxels") == 2);
-}
-
 TEST_CASE("ties within a scan and between scans are counted on both sides", "[counts]") {
   // Cells of 0.25 m. In the cell at x = 5 a static and a moving point of one scan lie 1/16 m to
   // either side of their mean, in that at x = 7 one of each scan.
@@ -256,17 +171,6 @@ TEST_CASE("ties within a scan and between scans are counted on both sides", "[co
   // The first point of the first scan gives its label.
   CHECK(result.count("static_voxels") == 2);
   CHECK(result.count("dynamic_voxels") == 0);
-}
-
-TEST_CASE("a cloud of one point finds its label again", "[counts][cloud]") {
-  const MemorySequence sequence({row_with({{40, false}, {252, false}})});
-  const Settings nearest = {{"label_mode", std::string("nearest")}, {"lift", 0.0}};
-  const std::vector<Eigen::Vector3f> cloud = {{6.05f, 0.05f, 0.05f}};
-  const auto scorer = protocol_with("erasor", nearest)->open(sequence.input());
-  const ProtocolResult result = scorer->score_cloud(CloudEstimate(cloud));
-  CHECK(result.count("remaining_dynamic") == 1);
-  CHECK(result.count("preserved_static") == 0);
-  CHECK(result.count("estimate_voxels") == 1);
 }
 
 TEST_CASE("a warning needs more than half of the estimate beside the truth", "[counts][cloud]") {

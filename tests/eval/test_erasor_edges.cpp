@@ -2,7 +2,6 @@
 // Edge cases of the ERASOR protocol, one scene each.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "eval/points/cloud_masks.h"
@@ -45,16 +44,6 @@ std::string message_of(Call&& call) {
     return error.what();
   }
   return "nothing was thrown";
-}
-
-/// A point that stays at (x, y, z) in the world with a lift of 0, for exact distances.
-MemorySequence pair_at_distance(const Eigen::Vector3f& offset) {
-  // Voxels of 0.5 m; the static point (5.25, 0.25, 0.25) is flagged, its neighbour is kept. The
-  // offset leads to another cell, so that the two are separate voxels.
-  LabelledScan scan;
-  scan.add(5.25f, 0.25f, 0.25f, 40, true);
-  scan.add(5.25f + offset.x(), 0.25f + offset.y(), 0.25f + offset.z(), 40, false);
-  return MemorySequence({scan});
 }
 
 }  // namespace
@@ -173,22 +162,6 @@ TEST_CASE("a scorer outlives its protocol and serves several masks", "[erasor][e
   CHECK(scorer->score(sequence.constant_masks(false)).rate("RR") == 0.0);
 }
 
-TEST_CASE("a voxel at exactly half a diagonal does not match", "[erasor][edge]") {
-  // Cells of 0.5 m: t^2 = 3/16, the square of (0.25, 0.25, 0.25), all exact in binary. Both points
-  // are voxels of their own, as 5.25 + 0.25 lies on a wall, which belongs to the upper cell.
-  const Settings settings = {{"voxel_size", 0.5}, {"lift", 0.0}};
-  const MemorySequence at = pair_at_distance({0.25f, 0.25f, 0.25f});
-  const ProtocolResult exact = score_erasor(at.input(), at.masks(), settings);
-  CHECK(exact.count("static_voxels") == 2);
-  CHECK(exact.count("preserved_static") == 1);
-  CHECK(exact.count("estimate_voxels_without_partner") == 0);
-  const float inside = 0.25f - 0x1p-25f;  // The sum with 0.25 is exact, too.
-  const MemorySequence within = pair_at_distance({0.25f, 0.25f, inside});
-  const ProtocolResult below = score_erasor(within.input(), within.masks(), settings);
-  CHECK(below.count("static_voxels") == 2);
-  CHECK(below.count("preserved_static") == 2);
-}
-
 TEST_CASE("of two equally near partners the first in cell order counts", "[erasor][edge]") {
   // Cells of 0.25 m. The flagged static point in the middle has one kept point 0.15625 m below it
   // in y and one as far above it in x. Cells run along x first, so the one lower in y comes first.
@@ -288,63 +261,6 @@ TEST_CASE("labels 0, 1 and 251 are static, and 0 and 1 can be left out of PR", "
   CHECK(left_out.count("dynamic_voxels") == 1);
 }
 
-TEST_CASE("instance ids do not change a class", "[erasor][edge]") {
-  // 259 of instance 300 becomes 260, static, where labels travel through a 32-bit float.
-  const ProtocolResult result = score_row({{(300U << 16) | 259U, true}, {(9U << 16) | 40U, false}});
-  CHECK(result.count("dynamic_voxels") == 1);
-  CHECK(result.count("static_voxels") == 1);
-}
-
-TEST_CASE("a scan whose points are all flagged contributes nothing", "[erasor][edge]") {
-  const MemorySequence one({row_of({{40, false}, {252, true}})});
-  const LabelledScan gone = row_of({{40, true}, {252, true}});
-  const MemorySequence two({one.scans()[0], gone});
-  const ProtocolResult single = score_erasor(one.input(), one.masks());
-  const ProtocolResult both = score_erasor(two.input(), two.masks());
-  CHECK(both.count("estimate_voxels") == single.count("estimate_voxels"));
-  CHECK(both.rates[0].value == single.rates[0].value);
-  CHECK(both.count("evaluated_points") == 4);
-}
-
-TEST_CASE("a two-point cell takes the first label and is counted as a tie", "[erasor][edge]") {
-  // 5.0625 and 5.1875 lie in the cell [5, 5.25) and are equally far from their mean 5.125.
-  const Settings settings = {{"voxel_size", 0.25}, {"lift", 0.0}};
-  for (const bool moving_first : {true, false}) {
-    LabelledScan scan;
-    scan.add(moving_first ? 5.0625f : 5.1875f, 0.125f, 0.125f, 252);
-    scan.add(moving_first ? 5.1875f : 5.0625f, 0.125f, 0.125f, 40);
-    if (!moving_first) {
-      std::swap(scan.points[0], scan.points[1]);
-      std::swap(scan.labels[0], scan.labels[1]);
-    }
-    const MemorySequence sequence({scan});
-    const ProtocolResult result = score_erasor(sequence.input(), sequence.masks(), settings);
-    CHECK(result.count("dynamic_voxels") == (moving_first ? 1 : 0));
-    CHECK(result.count("static_voxels") == (moving_first ? 0 : 1));
-    CHECK(result.count("mixed_label_ties") == 1);
-  }
-  // Two labels of one class tie without a consequence.
-  LabelledScan same;
-  same.add(5.0625f, 0.125f, 0.125f, 48);
-  same.add(5.1875f, 0.125f, 0.125f, 40);
-  const MemorySequence sequence({same});
-  CHECK(score_erasor(sequence.input(), sequence.masks(), settings).count("mixed_label_ties") == 0);
-}
-
-TEST_CASE("a nearer point of a neighbour cell gives its label", "[erasor][edge]") {
-  // Cell [5, 5.25): mean of 5.015625 and 5.234375 is 5.125 in x, and y 0.234375 near the wall at
-  // 0.25. The moving point beyond the wall is 0.03125 away, the cell's own ones 0.109.
-  LabelledScan scan;
-  scan.add(5.015625f, 0.234375f, 0.125f, 40);
-  scan.add(5.234375f, 0.234375f, 0.125f, 40);
-  scan.add(5.125f, 0.265625f, 0.125f, 252);
-  const MemorySequence sequence({scan});
-  const ProtocolResult result =
-      score_erasor(sequence.input(), sequence.masks(), {{"voxel_size", 0.25}, {"lift", 0.0}});
-  CHECK(result.count("dynamic_voxels") == 2);
-  CHECK(result.count("static_voxels") == 0);
-}
-
 /// A sequence whose poses change after it was opened.
 class MovedSequence : public MemorySequence {
  public:
@@ -384,26 +300,6 @@ TEST_CASE("scans that change after a protocol was opened are bad data", "[erasor
     CHECK_THAT(message_of<DataError>([&] { (void)scorer->score(sequence.masks()); }),
                Contains("changed"));
   }
-}
-
-TEST_CASE("a voxel at exactly half an edge is near, and the warning says how far that is",
-          "[erasor][edge]") {
-  // Voxels of 0.5 m, so that half an edge and the shift are the same number, without rounding.
-  LabelledScan scan;
-  for (const float x : {5.125F, 7.125F, 9.125F}) scan.add(x, 0.125F, -1.625F, 40);
-  const MemorySequence sequence({scan});
-  const auto scorer =
-      protocol_with("erasor",
-                    {{"voxel_size", 0.5}, {"label_mode", std::string("nearest")}, {"lift", 0.0}})
-          ->open(sequence.input());
-  const auto warnings = [&](float shift) {
-    std::vector<Eigen::Vector3f> cloud = sequence.scans().front().points;
-    for (Eigen::Vector3f& point : cloud) point.y() += shift;
-    return scorer->score_cloud(CloudEstimate(cloud)).warnings;
-  };
-  CHECK(warnings(0.25F).empty());
-  REQUIRE(warnings(0.375F).size() == 1);
-  CHECK_THAT(warnings(0.375F)[0], Contains("lie over 0.25 m from the ground truth"));
 }
 
 TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {

@@ -107,45 +107,4 @@ TEST_CASE("points out of range may lie beyond the lattice", "[dynamicmap]") {
   CHECK(result.count("out_of_range_points") == 2);
 }
 
-TEST_CASE("fine cells tell near from far for any distance", "[dynamicmap]") {
-  for (const double distance : {0.0, 0.01, 0.05, 0.3, 10.0}) {
-    CAPTURE(distance);
-    const FineGrid grid(distance);
-    const Eigen::Vector3d point(1234.5, -0.03, 7.0);
-    CellSet set;
-    for (int i = -1; i <= 1; ++i) {
-      const VoxelIndex block = voxel_index(grid.block_of(point));
-      for (int k = 0; k < 9; ++k) {
-        set.insert(voxel_key(block.x() + i, block.y() + k % 3 - 1, block.z() + k / 3 - 1));
-      }
-    }
-    const CellLattice blocks(set);
-    CellLattice::Cursor cursor;
-    // All points within the distance are within reach of the point's cell.
-    for (int i = 0; i < 200; ++i) {
-      const double u = 0.1 * i, z = 1.0 - 0.01 * i;
-      const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
-      const Eigen::Vector3d other =
-          point + distance * Eigen::Vector3d(r * std::cos(u), r * std::sin(u), z);
-      RankedBits all(blocks.size());
-      blocks.for_each([&](CellLattice::Number number, VoxelKey) { all.set(number); });
-      all.count_through();
-      FineBits bits(all);
-      const FineCell cell = grid.cell_of(other);
-      const auto block = blocks.find(cell.block, cursor);
-      REQUIRE(block != CellLattice::kNone);
-      bits.set(block, cell);
-      CHECK(bits.is_set(block, cell));
-      CHECK(bits.any(block));
-      CHECK(bits.any_near(grid.cell_of(point), blocks, cursor, 0, CellLattice::kNone));
-      CHECK_FALSE(
-          bits.any_near(grid.cell_of(point), blocks, cursor, block + 1, CellLattice::kNone));
-    }
-  }
-  CHECK(FineGrid(0.05).same_cell_is_near());
-  CHECK(FineGrid(10.0).same_cell_is_near());
-  CHECK_FALSE(FineGrid(0.01).same_cell_is_near());
-  CHECK_FALSE(FineGrid(0.0).same_cell_is_near());
-}
-
 }  // namespace raymoval::test

@@ -99,36 +99,6 @@ TEST_CASE("known answers have the rates that the protocols say", "[registry]") {
   CHECK(checked == 5 + 5 + 5 + 6);
 }
 
-TEST_CASE("the protocols have the defaults and the legal ranges of what they follow",
-          "[registry]") {
-  struct Expected {
-    const char *protocol, *option;
-    double value, least, most;
-  };
-  // Of the ERASOR paper and code, and of the KTH benchmark's code.
-  for (const Expected& expected : {Expected{"erasor", "voxel_size", 0.2, 0.01, 100.0},
-                                   Expected{"erasor", "minimum_horizontal_range", 2.7, 0.0, 1e6},
-                                   Expected{"erasor", "lift", 1.73, -1e3, 1e3},
-                                   Expected{"dynamicmap", "distance", 0.05, 0.0, 10.0},
-                                   Expected{"dynamicmap", "maximum_range", 0.0, 0.0, 1e6},
-                                   Expected{"dynamicmap", "ego_range", 3.0, 0.0, 1e6},
-                                   Expected{"dynamicmap-strict", "voxel_size", 0.1, 0.01, 100.0},
-                                   Expected{"dynamicmap-strict", "maximum_range", 0.0, 0.0, 1e6},
-                                   Expected{"dynamicmap-strict", "ego_range", 3.0, 0.0, 1e6}}) {
-    CAPTURE(expected.protocol, expected.option);
-    const ParameterSpec& spec = find_parameter(
-        expected.protocol, protocol_entry(expected.protocol).parameters, expected.option);
-    CHECK(std::get<double>(spec.default_value) == expected.value);
-    CHECK(spec.notes.minimum == expected.least);
-    CHECK(spec.notes.maximum == expected.most);
-  }
-  CHECK(std::get<bool>(
-      find_parameter("erasor", protocol_entry("erasor").parameters, "truck_is_moving")
-          .default_value));
-  CHECK_FALSE(std::get<bool>(
-      find_parameter("erasor", protocol_entry("erasor").parameters, "ignore_0_1").default_value));
-}
-
 TEST_CASE("a rate knows its largest and its best value", "[registry]") {
   CHECK(rate_spec("PR").largest() == 100.0);
   CHECK(rate_spec("F1").largest() == 1.0);

@@ -118,8 +118,8 @@ COMMANDS = [
             {}),
     Command("picture", ["picture", "../base/run", "--kind", "map", "-o", "map.png", "--overwrite",
                         "--threads", "1", "--quiet"], {}),
-    Command("compare", ["compare", "../base/run", "../base/half.json", "--format", "json", "-o",
-                        "moved.json", "--overwrite"], {}),
+    Command("compare", ["compare", "../base/run", "../base/half.json", "--format", "junit", "-o",
+                        "moved.xml", "--overwrite"], {}),
 ]
 
 

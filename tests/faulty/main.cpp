@@ -89,19 +89,6 @@ void chatter() {
   std::abort();
 }
 
-/// Another answer in every process.
-class Unsteady : public raymoval::Remover {
- public:
-  void run(const raymoval::ScanSource& scans, raymoval::RemovalSink& sink,
-           const raymoval::RunContext&) override {
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      raymoval::Mask mask(scans.load(i).size(), 0);
-      mask[static_cast<std::size_t>(::getpid()) % mask.size()] = 1;
-      sink.accept(i, mask);
-    }
-  }
-};
-
 /// Passes on another method's answer, except for one in a hundred of the removed points.
 class Slipping : public raymoval::Remover {
  public:
@@ -177,8 +164,5 @@ int main(int argc, char** argv) {
   methods.add(entry_of("leak-child", leak_in_child));
   methods.add(entry_of("killed", [] { std::raise(SIGKILL); }));
   methods.add(entry_of("throw", [] { throw std::runtime_error("no idea"); }));
-  raymoval::MethodEntry unsteady = entry_of("unsteady", [] {});
-  unsteady.make = [](const raymoval::Configuration&) { return std::make_unique<Unsteady>(); };
-  methods.add(unsteady);
   return raymoval::run_command_line(argc, argv, methods);
 }

@@ -2,7 +2,6 @@
 // Clouds with all their fields, in every format, and layouts of points.
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/field_names.h"
-#include "datasets/clouds/format/gzip.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 
@@ -72,14 +71,6 @@ RAYMOVAL_FUZZ_TARGET(npy) {
 
 RAYMOVAL_FUZZ_TARGET(npz) {
   try_records("scan.npz", bytes, {});
-}
-
-RAYMOVAL_FUZZ_TARGET(gz) {
-  may_refuse([&] {
-    const std::string unpacked = decompress_gzip(bytes, "scan.pcd.gz");
-    require(unpacked.size() <= bytes.size() * 1000 + (1 << 20), "a file unpacks beyond the limit");
-  });
-  try_records("scan.pcd.gz", bytes, {});
 }
 
 RAYMOVAL_FUZZ_TARGET(point_layout) {

@@ -57,9 +57,9 @@ make_drive 05 2350 2670 2
 "$raymoval" table segment --with-published --format tex --what accuracy,published >published.tex
 holds "papers' rows are in it" grep -qF '(published)' published.tex
 compiles published.tex
-"$raymoval" table run --columns --format tex >columns.tex
+"$raymoval" table run --what columns,losses,intervals --format tex >columns.tex
 compiles columns.tex
-"$raymoval" table run --layout paper --disagreements --format tex >paper.tex
+"$raymoval" table run --layout paper --format tex >paper.tex
 compiles paper.tex
 # One method's rates fit a column: a plain table.
 "$raymoval" table run --only '*/raymoval*' --rates PR,RR,F1 --format tex >narrow.tex

@@ -32,20 +32,6 @@ std::vector<ConfiguredMethod> all_methods() {
   return methods;
 }
 
-/// Public programs whose own lattice begins at the map's least x and y, and looks that way, or
-/// whose sectors begin at the world's x axis.
-bool knows_axes(const ConfiguredMethod& method) {
-  const std::string name = method.full_name();
-  return name == "beautymap:published" || name == "beautymap:semi-indoor" ||
-         name == "mapcleaner:published";
-}
-
-/// Public programs whose own lattice is cut off towards zero, about the world's origin.
-bool knows_origin(const ConfiguredMethod& method) {
-  const std::string name = method.full_name();
-  return name == "hmm_mos:published" || name == "hmm_mos:fine";
-}
-
 /// Keeps the evidence of a run.
 class KeptEvidence : public EvidenceSink {
  public:
@@ -69,24 +55,6 @@ const toy::World& street_for(const ConfiguredMethod& method) {
 }
 
 }  // namespace
-
-// A method's answer may depend on the world's origin and axes only through its lattice of voxels.
-TEST_CASE("whole voxels and quarter turns change no verdict", "[slow]") {
-  for (const ConfiguredMethod& method : all_methods()) {
-    if (knows_origin(method)) continue;
-    INFO(method.full_name());
-    const toy::World& world = street_for(method);
-    const MaskStore here = masks_of(*method.make(), world);
-    // 64 m, 32 m and 16 m are whole numbers of 0.05, 0.1, 0.2, 0.25, 0.4 and 1 m and of powers of
-    // two.
-    std::vector<Pose> motions = {toy::whole_motion(64, -32, 16, 0)};
-    if (!knows_axes(method)) motions.push_back(toy::whole_motion(0, 0, 0, 1));
-    for (const Pose& motion : motions) {
-      const MaskStore there = masks_of(*method.make(), toy::MovedWorld(world, motion));
-      CHECK(toy::different_verdicts(here, there, world.size()) == 0);
-    }
-  }
-}
 
 TEST_CASE("any number of threads gives the same answer", "[threads][slow]") {
   // As many threads as requested, on any number of processors.

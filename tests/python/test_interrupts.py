@@ -8,7 +8,6 @@ import threading
 import time
 import unittest
 
-import numpy as np
 
 import raymoval
 from support import QUIET, KeepAll, NearPoints, street
@@ -114,17 +113,6 @@ class Threads(unittest.TestCase):
         done.set()
         thread.join()
         self.assertGreater(len(ticks), 3)
-
-    def test_one_map_for_many_threads(self):
-        own = raymoval.OccupancyMap(1.0)
-        points = np.stack(np.meshgrid(*[np.arange(10.0)] * 3), -1).reshape(-1, 3)
-        threads = [threading.Thread(target=own.insert, args=(points + [10.0 * i, 0, 0],))
-                   for i in range(8)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(len(own), 8000)
 
 
 class Forks(unittest.TestCase):

@@ -30,15 +30,14 @@ count: int = masks.removed_count
 street = raymoval.open("street", frames="0:5")
 score = raymoval.score(street, masks)["erasor"]["F1"]
 assert score is None or score > 0.5
-image = raymoval.FirstHitCaster(raymoval.OccupancyMap(0.2)).cast(np.eye(4), raymoval.Bins())
 END
 holds "mypy finds nothing in a right caller" "${mypy[@]}" right.py
 cat >wrong.py <<'END'
 import raymoval
-raymoval.OccupancyMap("0.2")
+raymoval.estimate(5)
 raymoval.open(5)
 raymoval.open("street")[0].point
-raymoval.describe("raymoval").parameters.defaults
+raymoval.describe("raymoval").parameters
 END
 "${mypy[@]}" wrong.py >wrong.txt 2>&1
 holds "mypy finds four mistakes in a wrong caller: $(cat wrong.txt)" \
@@ -46,9 +45,9 @@ holds "mypy finds four mistakes in a wrong caller: $(cat wrong.txt)" \
 # pybind11's classes have a metaclass and an __init__ of its own; their members are compared.
 printf '%s\n' 'raymoval\._raymoval\.[A-Za-z]+(\.__init__)?' >known.txt
 holds "the stub is that of the module" "$python" -m mypy.stubtest raymoval._raymoval --allowlist known.txt
-sed 's/def voxels/def pixels/' "$package/raymoval/_raymoval.pyi" >changed.pyi
+sed 's/def accept/def take/' "$package/raymoval/_raymoval.pyi" >changed.pyi
 cp -rL "$package/raymoval" . && cp changed.pyi raymoval/_raymoval.pyi
 export PYTHONPATH=$work MYPYPATH=$work
 "$python" -m mypy.stubtest raymoval._raymoval --allowlist known.txt >changed.txt 2>&1
-holds "a wrong stub is found: $(head -3 changed.txt)" grep -q 'OccupancyMap.pixels' changed.txt
+holds "a wrong stub is found: $(head -3 changed.txt)" grep -q 'Sink.take' changed.txt
 finish types

@@ -309,8 +309,7 @@ def main():
                 "--quiet", "--keep-removals", "--method", "raymoval:offline", "--out", "empty", code=1)
         for run in ("failed", "many", "empty"):
             program(raymoval, "report", run, "--quiet")
-        program(raymoval, "report", "failed", "--against", "failed", "--no-points", "-o", "plain.html",
-                "--quiet")
+        program(raymoval, "report", "failed", "--no-points", "-o", "plain.html", "--quiet")
         with chromium.Browser(browser_path) as browser:
             browser.open("failed/report.html")
             check("the failed cell tells its reason",
@@ -338,8 +337,6 @@ def main():
             check("the empty cell is in the table", browser.run(
                 "document.querySelectorAll('#cells tbody tr').length") > 0)
             browser.open("plain.html")
-            check("what changed is told", "cells are the same" in
-                  browser.run("document.getElementById('changes').textContent"))
             check("no view where none is wanted", browser.run("!document.getElementById('viewer')"))
             check("nothing was logged, thrown or asked of the network", not browser.problems,
                   browser.problems)

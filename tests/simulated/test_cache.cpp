@@ -21,7 +21,6 @@
 #include "datasets/simulation/scene/scene_writer.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/temporary_folder.h"
-#include "tests/datasets/unreadable.h"
 #include "tests/simulated/scenes.h"
 
 using namespace raymoval;
@@ -133,57 +132,6 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
   Log log;
   CHECK(cached_simulation(small_town(), scratch.text(), 2, log.progress()) == folder);
   CHECK(log.text().empty());
-}
-
-TEST_CASE("A scene of the cache that cannot be read is not damaged, and stays", "[no-files]") {
-  const TemporaryFolder scratch;
-  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
-  const auto refuse = [&] {
-    CHECK_THROWS_AS(cached_simulation(small_town(), scratch.text(), 1, nullptr), UnreadableError);
-    CHECK_THROWS_AS(is_cached(small_town(), scratch.text()), UnreadableError);
-  };
-  {
-    const test::NothingOpens full;
-    refuse();
-  }
-  CHECK(is_cached(small_town(), scratch.text()));
-  const fs::path scan = folder / "velodyne/000001.bin";
-  test::make_unreadable(scan);
-  refuse();
-  CHECK(fs::is_symlink(scan));
-}
-
-TEST_CASE("The folder of another scene under a scene's name does not count") {
-  const TemporaryFolder scratch;
-  const fs::path one = cached_simulation(small_town(), scratch.text(), 2, nullptr);
-  const fs::path two = cached_simulation(small_town(3, 2), scratch.text(), 2, nullptr);
-  const std::string content = content_of(two);
-  fs::remove_all(two);
-  fs::copy(one, two, fs::copy_options::recursive);
-  cached_simulation(small_town(3, 2), scratch.text(), 2, nullptr);
-  CHECK(content_of(two) == content);
-}
-
-TEST_CASE("Files beside a scene that nobody reads do no harm and are not lost") {
-  const TemporaryFolder scratch;
-  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
-  std::ofstream(folder / "notes.txt") << "mine";
-  std::ofstream(folder / "velodyne/.DS_Store") << "x";
-  CHECK(cached_simulation(small_town(), scratch.text(), 2, nullptr) == folder);
-  CHECK(read_text(folder / "notes.txt") == "mine");
-}
-
-TEST_CASE("Only names and sizes are looked at where the content is checked otherwise") {
-  const TemporaryFolder scratch;
-  const fs::path folder = cached_simulation(small_town(), scratch.text(), 2, nullptr);
-  const fs::path scan = folder / "velodyne/000001.bin";
-  std::fstream(scan, std::ios::in | std::ios::out | std::ios::binary) << "xyz";
-  const std::string harmed = content_of(folder);
-  cached_simulation(small_town(), scratch.text(), 2, nullptr, nullptr, false);
-  CHECK(content_of(folder) == harmed);
-  fs::remove(scan);
-  cached_simulation(small_town(), scratch.text(), 2, nullptr, nullptr, false);
-  CHECK(content_of(folder) != harmed);
 }
 
 TEST_CASE("What a killed process left goes, and what may be alive or another's stays") {

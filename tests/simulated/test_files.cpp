@@ -5,7 +5,6 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -137,28 +136,6 @@ TEST_CASE("a mover that backs up is written as moving") {
   CHECK(movers[0].at("moves") == true);
   CHECK(movers[0].at("when").size() == 1);
   CHECK(movers[0].at("when")[0].at("state") == "moves");
-}
-
-TEST_CASE("the cache makes a sequence once, whoever asks at once") {
-  const TemporaryFolder scratch;
-  const fs::path cache = scratch / "simulated";
-  // A half-written folder under a temporary name, of any age, is ignored here: test_cache.cpp tests
-  // its removal.
-  fs::create_directories(cache / "town-0123456789abcdef.1.0.part");
-  std::array<fs::path, 4> found;
-  std::vector<std::thread> askers;
-  for (auto& path : found) {
-    askers.emplace_back(
-        [&] { path = cached_simulation(small_town(4), scratch.text(), 1, nullptr); });
-  }
-  for (auto& asker : askers) asker.join();
-  for (const auto& path : found) CHECK(path == found[0]);
-  CHECK(entries_of(found[0] / "velodyne").size() == 4);
-  CHECK(entries_of(cache).size() == 2);  // the sequence and the leftover
-  // A second request does not write again.
-  const auto written = fs::last_write_time(found[0] / "poses.txt");
-  CHECK(cached_simulation(small_town(4), scratch.text(), 1, nullptr) == found[0]);
-  CHECK(fs::last_write_time(found[0] / "poses.txt") == written);
 }
 
 TEST_CASE("a scene's name is told without generating it, and is the one it is opened by") {

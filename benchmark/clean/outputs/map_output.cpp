@@ -10,51 +10,17 @@
 #include "core/text.h"
 
 namespace raymoval {
-namespace {
-
-constexpr double kLargest = 65535.0;
-
-}  // namespace
-
-void IntensityCount::add(const PointRecords& rows) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double shown = rows.value(i, shown_.field) * scale_;
-    if (!(shown > 0.0)) continue;  // Zero or NaN.
-    ++positive_;
-    if (shown < 1.0) ++faint_;
-    if (shown > kLargest + 0.5) ++too_large_;
-  }
-}
-
-std::vector<std::string> IntensityCount::remarks(const std::string& option) const {
-  const std::string exact = "'" + shown_.exact + "' has the exact values.";
-  std::vector<std::string> remarks;
-  if (2 * faint_ > positive_) {
-    remarks.push_back(option + ": " + grouped_text(faint_) + " of " + grouped_text(positive_) +
-                      " intensities lie between 0 and 1" +
-                      (scale_ == 1.0 ? "" : " after --intensity-scale") +
-                      ". LAS shows whole numbers up to 65,535, so viewers show these as 0 or 1; " +
-                      exact + " --intensity-scale 65535 spreads values from 0 to 1.");
-  }
-  if (too_large_ > 0) {
-    remarks.push_back(option + ": " + counted_text(too_large_, "point") +
-                      " with an intensity of more than 65,535" +
-                      (scale_ == 1.0 ? "" : " after --intensity-scale") + " are shown as 65,535; " +
-                      exact + " Choose a smaller --intensity-scale.");
-  }
-  return remarks;
-}
-
 RecordLayout labelled_layout(const RecordLayout& layout) {
   return layout_with_field(layout, "label", 'U', sizeof(std::uint16_t));
 }
 
-MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
-                     double voxel_size, const Eigen::Vector3d& voxel_origin)
-    : sink_(std::move(sink)),
+MapOutput::MapOutput(const std::filesystem::path& path, const RecordLayout& layout,
+                     MapContent content, double voxel_size, const Eigen::Vector3d& voxel_origin)
+    : file_(path),
       layout_(content.labelled ? labelled_layout(layout) : layout),
       labelled_(content.labelled),
       has_cells_(voxel_size > 0.0) {
+  file_.start(layout_);
   const auto add_side = [&](std::uint8_t mask) {
     sides_.push_back({mask, has_cells_
                                 ? std::make_unique<VoxelRows>(layout, voxel_size, voxel_origin)
@@ -62,15 +28,6 @@ MapOutput::MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, 
   };
   if (content.kept) add_side(0);
   if (content.removed) add_side(1);
-}
-
-void MapOutput::count_intensity(IntensityCount count, std::string option) {
-  intensity_ = std::move(count);
-  option_ = std::move(option);
-}
-
-std::vector<std::string> MapOutput::remarks() const {
-  return intensity_ ? intensity_->remarks(option_) : std::vector<std::string>();
 }
 
 ScanRows MapOutput::with_label(const ScanRows& rows,
@@ -82,8 +39,7 @@ ScanRows MapOutput::with_label(const ScanRows& rows,
 
 void MapOutput::write(const ScanRows& rows) {
   points_ += rows.rows.size();
-  if (intensity_) intensity_->add(rows.rows);
-  sink_->add(rows);
+  file_.add(rows.rows);
 }
 
 void MapOutput::pass_on(const CleanedScan& scan) {
@@ -102,7 +58,6 @@ void MapOutput::pass_on(const CleanedScan& scan) {
   std::vector<std::uint8_t> removed;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] == 0) continue;
-    if (sink_->needs_world()) rows.world.push_back(scan.rows.world[i]);
     if (labelled_) removed.push_back(scan.mask[i]);
   }
   write(labelled_ ? with_label(rows, removed) : rows);
@@ -125,7 +80,7 @@ void MapOutput::finish() {
       write(labelled_ ? with_label(piece, removed) : piece);
     });
   }
-  sink_->finish();
+  file_.finish();
 }
 
 }  // namespace raymoval

@@ -2,38 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "benchmark/clean/outputs/clean_output.h"
-#include "benchmark/clean/outputs/row_sink.h"
 #include "benchmark/clean/rows/voxel_rows.h"
+#include "core/files/replacements.h"
 #include "datasets/clouds/cloud_file.h"
 
 namespace raymoval {
-
-/// Counts intensities that lose their value in a file that stores them as whole numbers from 0 to
-/// 65,535.
-class IntensityCount {
- public:
-  /// @param scale see `RecordWriting::intensity_scale`
-  IntensityCount(ShownIntensity shown, double scale) : shown_(std::move(shown)), scale_(scale) {}
-
-  /// @param rows of the layout that `shown` is a field of
-  void add(const PointRecords& rows);
-  /// Notes for the user, in sentences: most intensities are rounded to 0 or 1, or some are too
-  /// large. @param option of the map, such as "-o"
-  [[nodiscard]] std::vector<std::string> remarks(const std::string& option) const;
-
- private:
-  ShownIntensity shown_;
-  double scale_;
-  std::uint64_t faint_ = 0;      ///< More than 0 and less than 1.
-  std::uint64_t too_large_ = 0;  ///< More than 65,535.
-  std::uint64_t positive_ = 0;
-};
 
 /// Which points a map has.
 struct MapContent {
@@ -53,17 +31,14 @@ class MapOutput : public CleanOutput {
  public:
   /// @param layout of all rows, without a label
   /// @param voxel_size in metres; 0 keeps every point
-  MapOutput(std::unique_ptr<RowSink> sink, const RecordLayout& layout, MapContent content,
+  /// @throws UsageError, DataError as `PointRecordWriter`
+  MapOutput(const std::filesystem::path& path, const RecordLayout& layout, MapContent content,
             double voxel_size, const Eigen::Vector3d& voxel_origin);
-
-  /// Counts the intensities that the map's file shows as whole numbers. @param option of the map
-  void count_intensity(IntensityCount count, std::string option);
 
   void add(const CleanedScan& scan) override;
   void finish() override;
-  void commit_with(Replacements& together) override { sink_->commit_with(together); }
+  void commit_with(Replacements& together) override { file_.commit_with(together); }
   [[nodiscard]] std::uint64_t points() const override { return points_; }
-  [[nodiscard]] std::vector<std::string> remarks() const override;
 
  private:
   /// The kept points or the removed points.
@@ -76,14 +51,12 @@ class MapOutput : public CleanOutput {
   [[nodiscard]] ScanRows with_label(const ScanRows& rows,
                                     const std::vector<std::uint8_t>& removed) const;
 
-  std::unique_ptr<RowSink> sink_;
+  PointRecordWriter file_;
   RecordLayout layout_;  ///< Of the written rows.
   bool labelled_;
   std::vector<Side> sides_;
   bool has_cells_;
   std::uint64_t points_ = 0;
-  std::optional<IntensityCount> intensity_;
-  std::string option_;
 };
 
 }  // namespace raymoval

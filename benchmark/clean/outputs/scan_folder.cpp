@@ -36,13 +36,12 @@ std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) 
   return relative;
 }
 
-/// The file name of a cleaned scan: that of the scan, without compression. A scan of an archive
-/// becomes an array, and a scan without a file becomes a .pcd file.
+/// The file name of a cleaned scan: that of the scan. A scan of an archive becomes an
+/// array, and a scan without a file becomes a .pcd file.
 fs::path written_name(const FileScanSource* files, const Scan& scan) {
   if (files == nullptr) return scan.name + ".pcd";
   const fs::path& path = files->frames()[scan.index].path;
-  std::string extension = cloud_extension(path);
-  if (is_compressed(path)) extension = fs::path(extension).stem().string();
+  const std::string extension = cloud_extension(path);
   return cloud_stem(path) + (extension == ".npz" ? ".npy" : extension);
 }
 

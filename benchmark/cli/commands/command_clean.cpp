@@ -9,7 +9,6 @@
 #include "benchmark/clean/clean_outputs.h"
 #include "benchmark/clean/clean_process.h"
 #include "benchmark/clean/clean_summary.h"
-#include "benchmark/clean/outputs/tile_sink.h"
 #include "benchmark/cli/command.h"
 #include "benchmark/cli/suite_flags.h"
 #include "benchmark/process/method_run.h"
@@ -30,7 +29,7 @@ namespace {
 
 struct CleanFlags {
   std::string path, output, dynamic, labelled, labels, scans, page, picture;
-  std::string voxel, tiles, tile_format, intensity_scale, caution, edits;
+  std::string voxel, caution, edits;
   std::string method;
   std::vector<std::string> settings;
   SequenceFlags reading;
@@ -200,13 +199,9 @@ CleanPaths checked_paths(const CleanFlags& flags) {
     throw UsageError("PATH is missing: expected `raymoval clean PATH -o FILE`.");
   check_not_both(flags.path);
   CleanPaths paths;
-  paths.tiled = !flags.tiles.empty();
-  const auto map_target = [&](const std::string& named) {
-    return paths.tiled ? std::filesystem::path(named) : output_target(named);
-  };
-  paths.map = map_target(flags.output);
-  paths.removed = map_target(flags.dynamic);
-  paths.labelled = map_target(flags.labelled);
+  paths.map = output_target(flags.output);
+  paths.removed = output_target(flags.dynamic);
+  paths.labelled = output_target(flags.labelled);
   paths.labels = flags.labels;
   paths.scans = flags.scans;
   paths.page = output_target(flags.page);
@@ -225,14 +220,6 @@ CleanPaths checked_paths(const CleanFlags& flags) {
 CleanWriting writing_of(const CleanFlags& flags, const ConfiguredMethod& method) {
   CleanWriting writing;
   if (!flags.voxel.empty()) writing.voxel_size = parse_positive("--voxel", flags.voxel);
-  if (!flags.tiles.empty()) writing.tile_size = parse_positive("--tiles", flags.tiles);
-  if (!flags.tile_format.empty()) {
-    if (flags.tiles.empty()) throw UsageError("--tile-format needs --tiles METRES.");
-    writing.tile_extension = '.' + flags.tile_format.substr(flags.tile_format.front() == '.');
-  }
-  if (!flags.intensity_scale.empty()) {
-    writing.intensity_scale = parse_positive("--intensity-scale", flags.intensity_scale);
-  }
   writing.method = method.full_name();
   if (!flags.caution.empty()) writing.method += ", caution " + flags.caution;
   writing.confidence = flags.confidence;
@@ -339,9 +326,6 @@ ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Prog
   if (!turned.empty()) progress.say(sequence.name + ": " + turned);
   for (const std::string& line : sequence.losses) print_warning(line);
   CleaningFacts facts{paths, RangeCut{flags.reading.options().range_m}};
-  if (paths.tiled) {
-    check_tile_count(sequence, std::max(writing.tile_size, writing.voxel_size), facts.range.kept);
-  }
   facts.report = check_data(sequence, flags.path, flags.force,
                             {flags.work.thread_count(), &progress, &interrupt_flag()});
   progress.set_context(writing.method + " on " + sequence.name);
@@ -401,15 +385,6 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
   options.add("--scans", "DIR", flags.scans,
               "Also write each scan without its removed points, into a folder that opens like the "
               "sequence: in the format of the input, or as .pcd if that is a recording");
-  options.add("--tiles", "METRES", flags.tiles,
-              "Cut maps into square tiles of this size: -o, --dynamic and --labelled then name "
-              "folders");
-  options.add("--tile-format", "FORMAT", flags.tile_format,
-              "The format of the tiles, such as ply (default: pcd)");
-  options.add(
-      "--intensity-scale", "FACTOR", flags.intensity_scale,
-      "Factor for real intensities in LAS files, which show whole numbers up to 65535, such as "
-      "65535 for intensities from 0 to 1 (default: 1); the exact values are in another field");
   options.add("--html", "FILE", flags.page,
               "Also write a page in which you can look at the map and correct it (.html)");
   options.add("--picture", "FILE", flags.picture, "Also write the map from above (.png)");
@@ -458,7 +433,6 @@ Command add_clean_command(CommandParser& program) {
       "  raymoval clean data/05 -o near.pcd --range 2:40 --drop-ego auto\n"
       "  raymoval clean data/05 --scans cleaned --html map.html --picture map.png\n"
       "  raymoval clean data/05 --edits edits.json -o static.pcd\n"
-      "  raymoval clean data/05 -o tiles --tiles 100\n"
       "  raymoval clean scans/ --poses estimate -o static.pcd --write-poses poses.txt\n"
       "The data is first checked as by `raymoval inspect`. Mistakes that make the map wrong are "
       "refused\n"

@@ -4,7 +4,6 @@
 
 #include "benchmark/cli/command.h"
 #include "benchmark/result/checks/result_sets.h"
-#include "benchmark/result/speed/speed_record.h"
 #include "benchmark/run/folder/run_folder.h"
 #include "benchmark/tables/comparison_files.h"
 #include "core/files/file_kind.h"
@@ -20,7 +19,7 @@ struct CompareFlags {
   std::string run, reference, time_band, format = "text";
   OutputFlag output;
   std::vector<std::string> tolerances, across;
-  bool update = false, with_times = false, speed = false;
+  bool update = false, with_times = false;
 };
 
 /// `--across parameters,version`, or each on its own.
@@ -125,59 +124,28 @@ ExitCode judged(const Comparison& comparison, const ComparisonOptions& options) 
   return ExitCode::kDone;
 }
 
-/// The file of `compare --speed`, from a file or from the folder of scripts/benchmark.sh.
-std::filesystem::path speed_file(const std::string& given) {
-  std::filesystem::path path(given);
-  if (is_folder(path)) path /= "speed.json";
-  if (!is_there(path)) {
-    throw DataError(path.string() +
-                    ": no such file; expected two folders that scripts/benchmark.sh "
-                    "wrote, or the speed.json in them.");
-  }
-  return path;
-}
-
-/// Compares the times of whole cells of two machines or versions.
-ExitCode compare_speeds(const CompareFlags& flags) {
-  if (flags.update || flags.with_times || !flags.tolerances.empty() || !flags.across.empty() ||
-      !flags.output.path.empty() || flags.format != "text") {
-    throw UsageError("--speed compares times only: it can be combined with --time-band alone.");
-  }
-  const double band = options_of(flags).time_band.value_or(kSpeedBand);
-  const SpeedComparison comparison = compare_speed(read_speed(speed_file(flags.run)),
-                                                   read_speed(speed_file(flags.reference)), band);
-  print(coloured_verdicts(speed_text(comparison)));
-  if (comparison.verdict() == ExitCode::kCannotDo) {
-    throw UsageError("the times are not comparable, see above.");
-  }
-  if (comparison.verdict() == ExitCode::kWorse) {
-    throw Error("the run is slower than the reference, see above.", ExitCode::kWorse);
-  }
-  return ExitCode::kDone;
-}
-
 ExitCode compare(const CompareFlags& flags) {
   if (flags.run.empty() || flags.reference.empty()) {
     throw UsageError("two results are needed: expected `raymoval compare RUN REFERENCE`.");
   }
-  if (flags.with_times && !flags.update && !flags.speed) {
+  if (flags.with_times && !flags.update) {
     throw UsageError("--with-times needs --update: it keeps the times in the new reference.");
   }
-  if (flags.speed) return compare_speeds(flags);
   if (flags.update) return update(flags);
-  const ComparisonSubject subject{flags.run, flags.reference, options_of(flags)};
+  const ComparisonSubject subject{flags.run, flags.reference};
+  const ComparisonOptions options = options_of(flags);
   (void)comparison_in(flags.format, {}, subject);  // A wrong format is reported before the work.
   flags.output.check();
   const std::filesystem::path run = find_results(flags.run);
   const std::filesystem::path reference = find_results(flags.reference);
   flags.output.check_is_none_of({run, reference});
   const Comparison comparison =
-      compare_results(read_result_set(run), read_result_set(reference), subject.options);
+      compare_results(read_result_set(run), read_result_set(reference), options);
   const std::string text = comparison_in(flags.format, comparison, subject);
   flags.output.write(text);
   const bool shows_text = !flags.output.path.empty() || flags.format == "text";
   print(shows_text ? coloured_verdicts(comparison_text(comparison)) : text);
-  return judged(comparison, subject.options);
+  return judged(comparison, options);
 }
 
 void add_compare_options(CommandOptions& options, CompareFlags& flags) {
@@ -195,12 +163,8 @@ void add_compare_options(CommandOptions& options, CompareFlags& flags) {
   options.add(
       "--time-band", "FACTOR", flags.time_band,
       "A method that is slower than the reference by more than this factor is worse (default: "
-      "times are shown and not compared; with --speed 1.3)");
-  options.add_flag(
-      "--speed", flags.speed,
-      "Compare two speed.json of scripts/benchmark.sh, or their folders: times of whole "
-      "cells, relative to a fixed kernel of the same run");
-  options.add("--format", "FORMAT", flags.format, "text, md, junit or json (default: text)");
+      "times are shown and not compared)");
+  options.add("--format", "FORMAT", flags.format, "text, md or junit (default: text)");
   flags.output.add_to(options, "-o,--output",
                       "Write the comparison to this file, and print it as text");
   options.add_flag("--update", flags.update,
@@ -227,7 +191,7 @@ Command add_compare_command(CommandParser& program) {
       "the\n"
       "protocol has a tolerance). The output lists what differs.\n"
       "--format junit is XML for a CI server: a test suite for each sequence, and a test case for\n"
-      "each method and protocol. The keys of json are in results/schema/comparison.schema.json.\n"
+      "each method and protocol.\n"
       "Times of cells that ran in parallel (run --jobs) are compared only if equally many ran at "
       "once.\n"
       "Exit codes: 0 the same or better, 1 worse, 2 not comparable.\n"
@@ -237,8 +201,7 @@ Command add_compare_command(CommandParser& program) {
       "  raymoval compare out/new out/old --tolerance F1=0.002 --time-band 3\n"
       "  raymoval compare out/new out/old --across parameters --tolerance F1=0.01\n"
       "  raymoval compare out/new out/old --format junit -o compare.xml\n"
-      "  raymoval compare out/new reference --update --with-times\n"
-      "  raymoval compare --speed out/kernels/speed.json old/speed.json --time-band 1.5");
+      "  raymoval compare out/new reference --update --with-times");
   return {options.name(), [flags] { return compare(*flags); }};
 }
 

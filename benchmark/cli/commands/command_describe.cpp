@@ -9,37 +9,14 @@
 #include <vector>
 
 #include "benchmark/cli/command.h"
-#include "benchmark/result/record_fields.h"
+#include "benchmark/cli/description.h"
 #include "benchmark/tables/text/text_table.h"
 #include "core/parameter_condition.h"
 #include "core/text.h"
 #include "eval/protocol.h"
 #include "eval/protocol_registry.h"
-#include "methods/registry.h"
 
 namespace raymoval {
-
-static void describe(RecordWriter& writer, const MethodVariant& variant) {
-  writer.field("name", variant.name);
-  writer.field("sentence", variant.sentence);
-  writer.field("online", variant.online);
-  writer.field("overrides", variant.overrides);
-}
-
-static void describe(RecordWriter& writer, const ParameterSpec& spec) {
-  const auto bound = [](double value) {
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
-  };
-  writer.field("name", spec.name);
-  writer.field("default", spec.default_value);
-  writer.field("unit", spec.notes.unit);
-  writer.field("minimum", bound(spec.notes.minimum));
-  writer.field("maximum", bound(spec.notes.maximum));
-  writer.field("choices", spec.choices);
-  writer.field("source", spec.notes.source);
-  writer.field("sentence", spec.notes.sentence);
-  writer.field("acts_when", spec.notes.acts_when);
-}
 
 namespace {
 
@@ -203,23 +180,6 @@ std::string description_text(const Description& description, bool all) {
   return text;
 }
 
-/// Keys and their order are part of the program's interface.
-std::string description_json(const Description& description) {
-  RecordWriter writer;
-  writer.field("name", description.name);
-  writer.field("sentence", description.sentence);
-  writer.field("source", description.source);
-  writer.field("version", description.version);
-  writer.field("notes", description.notes);
-  writer.field("variants", description.variants);
-  writer.field("parameters", description.parameters);
-  for (std::size_t i = 0; i < description.acts.size(); ++i) {
-    writer.json["parameters"][i]["acts"] = bool{description.acts[i]};
-  }
-  if (description.confidence) writer.field("confidence", *description.confidence);
-  return json_text(writer.json);
-}
-
 std::string description_markdown(const Description& description) {
   std::string text = "### " + description.name + "\n\n" + description.sentence + "\n";
   if (!description.source.empty()) text += "\nSource: " + description.source + "\n";
@@ -246,13 +206,11 @@ std::string description_markdown(const Description& description) {
 struct DescribeFlags {
   std::string name;
   bool markdown = false;
-  bool json = false;
   bool all = false;
 };
 
 /// A name that is both a method's and a protocol's means the method.
-Description description_of(const std::string& name) {
-  const MethodRegistry& registry = program_methods();
+Description description_of(const MethodRegistry& registry, const std::string& name) {
   std::vector<std::string> names;
   const std::string method = name.substr(0, name.find(':'));
   for (const auto& entry : registry.entries()) {
@@ -283,22 +241,21 @@ ExitCode describe(const DescribeFlags& flags) {
   if (flags.name.empty()) {
     throw UsageError("NAME is missing: name a method or a protocol (see `raymoval list`).");
   }
-  if (flags.markdown && flags.json) throw UsageError("choose one of --markdown and --json.");
-  const Description description = description_of(flags.name);
-  if (flags.json) {
-    print(description_json(description));
-  } else {
-    print(flags.markdown ? description_markdown(description)
-                         : description_text(description, flags.all));
-    if (is_also_protocol(flags.name)) {
-      print("\nThe protocol of this name: raymoval describe " + std::string(kProtocolPrefix) +
-            flags.name + "\n");
-    }
+  const Description description = description_of(program_methods(), flags.name);
+  print(flags.markdown ? description_markdown(description)
+                       : description_text(description, flags.all));
+  if (is_also_protocol(flags.name)) {
+    print("\nThe protocol of this name: raymoval describe " + std::string(kProtocolPrefix) +
+          flags.name + "\n");
   }
   return ExitCode::kDone;
 }
 
 }  // namespace
+
+std::string described(const MethodRegistry& methods, const std::string& name) {
+  return description_text(description_of(methods, name), true);
+}
 
 Command add_describe_command(CommandParser& program) {
   auto flags = std::make_shared<DescribeFlags>();
@@ -308,10 +265,9 @@ Command add_describe_command(CommandParser& program) {
               "METHOD, METHOD:variant, external:MANIFEST, PROTOCOL or protocol:NAME");
   options.add_flag("--all", flags->all, "Show all parameters, not only the main ones");
   options.add_flag("--markdown", flags->markdown, "Print Markdown, with all parameters");
-  options.add_flag("--json", flags->json, "Print JSON, with all parameters");
   options.set_footer(
       "Examples:\n  raymoval describe raymoval:online\n  raymoval describe raymoval_plus --all\n  "
-      "raymoval describe protocol:erasor --json");
+      "raymoval describe protocol:erasor --markdown");
   return {options.name(), [flags] { return describe(*flags); }};
 }
 

@@ -18,41 +18,34 @@ struct PictureFlags {
   std::string run, kind = "map";
   OutputFlag output;
   std::vector<std::string> only;
-  std::string sequence, method, crop, resolution, size, protocol, data;
+  std::string crop, resolution, size, protocol, data;
   bool simulate = false;
   WorkFlags work;
 };
 
 const std::vector<std::string>& kinds() {
-  static const std::vector<std::string> names = {"map",    "overview",      "pr-rr",
-                                                 "stages", "accuracy-time", "sweep"};
+  static const std::vector<std::string> names = {"map", "pr-rr", "accuracy-time", "sweep"};
   return names;
 }
 
 bool is_chart(const std::string& kind) {
-  return kind == "pr-rr" || kind == "stages" || kind == "accuracy-time" || kind == "sweep";
+  return kind != "map";
 }
 
 /// @throws UsageError for an option that has no effect on the kind of picture
 void check_options(const PictureFlags& flags) {
-  const struct {
-    const char* option;
-    bool given;
-    std::vector<std::string> kinds;
-  } rules[] = {{"--only", !flags.only.empty(), {"map"}},
-               {"--crop", !flags.crop.empty(), {"map", "overview"}},
-               {"--resolution", !flags.resolution.empty(), {"map"}},
-               {"--size", !flags.size.empty(), {"map", "overview"}},
-               {"--sequence", !flags.sequence.empty(), {"overview"}},
-               {"--method", !flags.method.empty(), {"overview"}},
-               {"--data", !flags.data.empty(), {"map", "overview"}},
-               {"--simulate", flags.simulate, {"map", "overview"}},
-               {"--protocol", !flags.protocol.empty(), {"pr-rr", "accuracy-time", "sweep"}}};
-  for (const auto& rule : rules) {
-    if (!rule.given || is_among(rule.kinds, flags.kind)) continue;
-    throw UsageError(std::string(rule.option) + " needs --kind " + join(rule.kinds, " or ") +
-                     ", not with " + flags.kind + "." +
-                     (flags.kind == "map" ? " Choose cells with --only." : ""));
+  const std::pair<const char*, bool> of_maps[] = {{"--only", !flags.only.empty()},
+                                                  {"--crop", !flags.crop.empty()},
+                                                  {"--resolution", !flags.resolution.empty()},
+                                                  {"--size", !flags.size.empty()},
+                                                  {"--data", !flags.data.empty()},
+                                                  {"--simulate", flags.simulate}};
+  for (const auto& [option, given] : of_maps) {
+    if (!given || flags.kind == "map") continue;
+    throw UsageError(std::string(option) + " needs --kind map, not with " + flags.kind + ".");
+  }
+  if (!flags.protocol.empty() && flags.kind == "map") {
+    throw UsageError("--protocol needs a chart (--kind pr-rr, accuracy-time or sweep).");
   }
 }
 
@@ -91,37 +84,17 @@ WorldWindow parse_crop(const std::string& text) {
   return {values[0], values[1], values[2], values[3]};
 }
 
-/// The name that was given, or the only name that exists. @throws UsageError if there are several
-std::string chosen(const std::string& given, const char* option,
-                   const std::vector<std::string>& names) {
-  if (!given.empty()) return given;
-  if (names.size() == 1) return names.front();
-  throw UsageError(std::string(option) + " is missing. This run has: " + join(names) + ".");
-}
-
-const KeptCell& chosen_cell(const PictureFlags& flags, const KeptRun& run) {
-  std::vector<std::string> methods;
-  for (const KeptCell& cell : run.cells()) {
-    if (!cell.control) add_once(methods, cell.name);
-  }
-  return run.cell(chosen(flags.sequence, "--sequence", run.results().sequences),
-                  chosen(flags.method, "--method", methods));
-}
-
 Canvas drawn(const PictureFlags& flags, Progress& progress) {
   MapPictureOptions map;
-  OverviewOptions overview;
   map.only = flags.only;
-  if (!flags.crop.empty()) overview.crop = map.crop = parse_crop(flags.crop);
+  if (!flags.crop.empty()) map.crop = parse_crop(flags.crop);
   if (!flags.resolution.empty()) map.resolution = parse_positive("--resolution", flags.resolution);
   if (!flags.size.empty()) {
-    map.panel_pixels = overview.panel_pixels =
-        parse_whole("--size", flags.size, 50, 8000, "a whole number of pixels");
+    map.panel_pixels = parse_whole("--size", flags.size, 50, 8000, "a whole number of pixels");
   }
   const OpenContext context{flags.work.thread_count(), &progress, &interrupt_flag()};
   const KeptRun run(flags.run, flags.data, flags.simulate);
-  if (flags.kind == "map") return map_picture(run, map, context);
-  return overview_picture(run, chosen_cell(flags, run), overview, context);
+  return map_picture(run, map, context);
 }
 
 /// The chart with notes below it on how methods differ from their variants.
@@ -133,11 +106,6 @@ Chart noted(Chart chart, const RunResults& results) {
 /// The requested chart. @throws DataError if the run has no data for it
 Chart charted(const PictureFlags& flags) {
   const RunResults results = KeptRun(flags.run, "").results();
-  if (flags.kind == "stages") {
-    Chart drawing = stage_chart(results);
-    if (!drawing.empty()) return noted(std::move(drawing), results);
-    throw DataError(flags.run + ": no method has times; none finished a cell.");
-  }
   RunResults checked = results;
   if (!flags.protocol.empty()) choose_protocols(checked, {flags.protocol});
   const auto chart = flags.kind == "pr-rr"   ? pr_rr_chart
@@ -173,29 +141,23 @@ void add_options(CommandOptions& options, PictureFlags& flags) {
   flags.output.add_to(options, "-o,--output",
                       "The picture, a .png file, or of a chart a .svg file");
   options.add("--kind", "KIND", flags.kind,
-              "map (default), overview, pr-rr, stages, accuracy-time or sweep; the last four "
-              "are charts");
+              "map (default), pr-rr, accuracy-time or sweep; the last three are charts");
   options.add(
       "--only", "PATTERN", flags.only,
       "map: only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?); "
       "default: all but the controls");
-  options.add("--sequence", "NAME", flags.sequence, "overview: the sequence");
-  options.add("--method", "NAME", flags.method, "overview: the method");
   options.add("--crop", "WINDOW", flags.crop,
-              "map, overview: XMIN:XMAX:YMIN:YMAX in metres of the world frame (default: the "
-              "sensor's path and 30 m around it)");
+              "map: XMIN:XMAX:YMIN:YMAX in metres of the world frame (default: the sensor's path "
+              "and 30 m around it)");
   options.add("--resolution", "METRES", flags.resolution,
               "map: metres per pixel (default: --size decides)");
-  options.add("--size", "PIXELS", flags.size,
-              "map, overview: the longer side of a panel in pixels");
-  options.add("--protocol", "NAME", flags.protocol,
-              "pr-rr, accuracy-time, sweep: the protocol that is shown");
+  options.add("--size", "PIXELS", flags.size, "map: the longer side of a panel in pixels");
+  options.add("--protocol", "NAME", flags.protocol, "Charts: the protocol that is shown");
   options.add("--data", "PATH", flags.data,
               "Folder of the data, if it was moved since the run: that of the sequence, or one "
               "with all sequences by name");
-  options.add_flag(
-      "--simulate", flags.simulate,
-      "map, overview: simulate scenes of the run that are not in the cache; they may be large");
+  options.add_flag("--simulate", flags.simulate,
+                   "map: simulate scenes of the run that are not in the cache; they may be large");
   flags.work.add_to(options);
 }
 
@@ -206,8 +168,7 @@ Command add_picture_command(CommandParser& program) {
   CommandOptions options = program.add_command("picture", "Draws maps and charts of a run");
   add_options(options, *flags);
   options.set_footer(
-      "Maps and overviews need a run with --keep-removals, and its data. They show the evaluated "
-      "points.\n"
+      "Maps need a run with --keep-removals, and its data. They show the evaluated points.\n"
       "A pixel of a map with at least one moving point per ten static points shows the verdict on "
       "most of\n"
       "its moving points, another pixel that on most of its static points. Charts need only the "
@@ -218,10 +179,8 @@ Command add_picture_command(CommandParser& program) {
       "  raymoval picture out/05 -o maps.png\n"
       "  raymoval picture out/05 -o map.png --only '05/raymoval*' --size 800\n"
       "  raymoval picture out/05 -o detail.png --crop -20:60:-15:15 --resolution 0.1\n"
-      "  raymoval picture out/05 -o overview.png --kind overview --method raymoval:offline\n"
       "  raymoval run simulated --out out/simulated\n"
-      "  raymoval picture out/simulated -o rates.svg --kind pr-rr\n"
-      "  raymoval picture out/simulated -o stages.svg --kind stages");
+      "  raymoval picture out/simulated -o rates.svg --kind pr-rr");
   return {options.name(), [flags] { return draw(*flags); }};
 }
 

@@ -16,7 +16,7 @@ namespace raymoval {
 namespace {
 
 struct ReportFlags {
-  std::string run, against, data, points;
+  std::string run, data, points;
   OutputFlag output;
   bool no_points = false, simulate = false;
   WorkFlags work;
@@ -70,13 +70,6 @@ ExitCode report(const ReportFlags& flags) {
   const KeptRun run(flags.run, flags.data, flags.simulate);
   request.run = &run;
   request.published = papers(run.results());
-  std::optional<Comparison> comparison;
-  if (!flags.against.empty()) {
-    comparison =
-        compare_results(read_result_set(results), read_result_set(find_results(flags.against)), {});
-    request.comparison = &*comparison;
-    request.reference = flags.against;
-  }
   request.methods = &program_methods();
   request.points_needed = !flags.data.empty() || flags.simulate;  // The user asks for them.
   request.threads = threads;
@@ -104,7 +97,6 @@ Command add_report_command(CommandParser& program) {
   options.add("run", "RUN", flags->run, "The run folder");
   flags->output.add_to(options, "-o,--output",
                        "The page to write (default: RUN/report.html, which is replaced)");
-  options.add("--against", "RUN", flags->against, "Another run: also show the differences from it");
   options.add("--data", "PATH", flags->data, "Folder of the data, if it was moved since the run");
   options.add("--points", "N", flags->points,
               "Put at most N points into the page (default: 1000000)");
@@ -119,8 +111,7 @@ Command add_report_command(CommandParser& program) {
       "Examples:\n"
       "  raymoval run --sequence town --method raymoval --keep-removals --out out/town\n"
       "  raymoval report out/town\n"
-      "  raymoval report out/town -o town.html --points 300000\n"
-      "  raymoval report out/new --against out/old --no-points -o changes.html");
+      "  raymoval report out/town -o town.html --points 300000");
   return {options.name(), [flags] { return report(*flags); }};
 }
 

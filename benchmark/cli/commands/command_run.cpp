@@ -19,7 +19,7 @@ namespace {
 
 struct RunFlags {
   SuiteFlags what;
-  std::string out, shard, cell, jobs;
+  std::string out, cell, jobs;
   RunOptions options;  ///< Options that are stored as they are.
   bool explain = false, in_process = false, quiet = false;
 };
@@ -32,9 +32,7 @@ void report_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
     print_error(red("raymoval: cell failed:") + " " + failure);
   }
-  for (const auto* lines : {&summary.lost_scans, &summary.flat_sweeps}) {
-    for (const std::string& line : *lines) print_warning(line);
-  }
+  for (const std::string& line : summary.lost_scans) print_warning(line);
   for (const std::string& problem : summary.controls) {
     print_error(red("raymoval: controls have wrong scores:") + " " + problem);
   }
@@ -54,9 +52,9 @@ void check_flags(const RunFlags& flags) {
     throw UsageError("--out DIR is missing: name the folder for the results.");
   }
   const bool collect = flags.options.collect;
-  const bool selects = !flags.options.selection.only.empty() || !flags.shard.empty();
+  const bool selects = !flags.options.only.empty();
   if (!flags.cell.empty() && (selects || collect || flags.explain)) {
-    throw UsageError("--cell cannot be combined with --only, --shard, --collect and --explain.");
+    throw UsageError("--cell cannot be combined with --only, --collect and --explain.");
   }
   if (parse_jobs(flags.jobs) > 1 && flags.in_process) {
     throw UsageError("--jobs runs each method in a process of its own: leave --in-process out.");
@@ -65,7 +63,7 @@ void check_flags(const RunFlags& flags) {
     throw UsageError("--cell runs one cell: leave --jobs out.");
   }
   if (collect && selects) {
-    throw UsageError("--collect gathers all cells: leave out --only and --shard.");
+    throw UsageError("--collect gathers all cells: leave out --only.");
   }
 }
 
@@ -127,7 +125,6 @@ ExitCode run(const RunFlags& flags) {
   options.progress = &progress;
   options.cancel = &interrupt_flag();
   options.isolate = !flags.in_process;
-  if (!flags.shard.empty()) parse_shard(flags.shard, options.selection);
   options.jobs = parse_jobs(flags.jobs);
   if (flags.explain) return explain(suite, options);
   const auto summary = run_asked(flags, suite, options);
@@ -143,10 +140,8 @@ ExitCode run(const RunFlags& flags) {
 void add_cell_options(CommandOptions& options, RunFlags& flags) {
   options.group("Cell options");
   options.add(
-      "--only", "PATTERN", flags.options.selection.only,
+      "--only", "PATTERN", flags.options.only,
       "Run only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?)");
-  options.add("--shard", "I/N", flags.shard,
-              "Run only part I of N equal parts, to use several machines");
   options.add(
       "--cell", "CELL", flags.cell,
       "Run one cell, given by its key (see `raymoval plan`) or as SEQUENCE/NAME; make no tables");
@@ -226,7 +221,6 @@ Command add_run_command(CommandParser& program) {
       "  raymoval run simulated --out out/simulated\n"
       "  raymoval run simulated --out out/simulated --explain\n"
       "  raymoval run simulated --out out/soon --jobs 2\n"
-      "  raymoval run simulated --out out/part2 --shard 2/3\n"
       "  raymoval run suite.json --out out/suite --threads 2 --only 'town/raymoval:*'");
   return {options.name(), [flags] { return run(*flags); }};
 }

@@ -16,11 +16,9 @@ namespace {
 
 struct TableFlags {
   std::string run, format = "md", layout = "methods";
-  std::vector<std::string> what, protocols, only, rates, decimals, names;
+  std::vector<std::string> what, protocols, only, rates, decimals;
   std::string sort;
   bool with_published = false;
-  bool columns = false;
-  bool disagreements = false;
 };
 
 [[nodiscard]] bool is_text(const TableFlags& flags) {
@@ -40,17 +38,15 @@ void check_flags(const TableFlags& flags) {
   const struct {
     const char* option;
     bool given;
-  } looks[] = {{"--with-published", flags.with_published}, {"--columns", flags.columns},
-               {"--disagreements", flags.disagreements},   {"--layout", flags.layout != "methods"},
-               {"--rates", !flags.rates.empty()},          {"--decimals", !flags.decimals.empty()},
-               {"--names", !flags.names.empty()},          {"--what", !flags.what.empty()}};
+  } looks[] = {{"--with-published", flags.with_published},
+               {"--layout", flags.layout != "methods"},
+               {"--rates", !flags.rates.empty()},
+               {"--decimals", !flags.decimals.empty()},
+               {"--what", !flags.what.empty()}};
   for (const auto& look : looks) {
     if (look.given && !is_text(flags)) {
       throw UsageError(std::string(look.option) + " needs --format md or tex.");
     }
-  }
-  if (flags.columns && (flags.with_published || !flags.what.empty())) {
-    throw UsageError("--columns cannot be combined with --with-published and --what.");
   }
   if (flags.format == "json" &&
       !(flags.protocols.empty() && flags.only.empty() && flags.sort.empty())) {
@@ -93,7 +89,6 @@ TableOptions options_of(const TableFlags& flags, const RunResults& results) {
   if (options.what.empty() && flags.format == "tex") options.what = latex_kinds(results);
   if (is_among(options.what, "all")) options.what.clear();
   if (!flags.sort.empty()) options.sort = flags.sort;
-  options.disagreements = flags.disagreements;
   if (flags.with_published) options.outside = matching_published_rows(results);
   check_rates(options, results);
   return options;
@@ -103,17 +98,10 @@ std::string tables_text(const TableFlags& flags, RunResults& results) {
   TableOptions options = options_of(flags, results);
   sort_results(options.sort, results);
   if (flags.format == "csv") return results_csv(results);
-  DisplayNames names;
-  for (const std::string& text : flags.names) parse_display_names(text, results, names);
-  apply_display_names(names, results, options.outside);
-  std::vector<TextTable> tables =
-      flags.columns ? full_column_tables(results) : make_tables(results, options);
+  const std::vector<TextTable> tables = make_tables(results, options);
   if (tables.empty() && !flags.what.empty()) {
     throw UsageError("--what " + join(flags.what, ",") +
                      ": this run has no such table. `--what published` needs --with-published.");
-  }
-  if (flags.columns) {
-    for (TextTable& table : tables) add_change_notes(results, table);
   }
   return flags.format == "md" ? tables_markdown(results, tables) : tables_latex(tables);
 }
@@ -142,16 +130,9 @@ void add_look_options(CommandOptions& options, TableFlags& flags) {
               "(default: the main rates)");
   options.add("--decimals", "N", flags.decimals,
               "Number of decimals: 2, or for one rate, such as F1=3");
-  options.add(
-      "--names", "NAMES", flags.names,
-      "The displayed name of a method or sequence: 'NAME=SHOWN', or a file with such lines");
   options.add("--sort", "COLUMN", flags.sort,
               "Sort every table by this rate, by ms or by MiB, best first, or by name; none "
               "(default): order of the run");
-  options.add_flag(
-      "--disagreements", flags.disagreements,
-      "Also show the ranks on each sequence, and the pairs of methods that protocols rank "
-      "in a different order");
 }
 
 }  // namespace
@@ -163,27 +144,24 @@ Command add_table_command(CommandParser& program) {
   options.add("--format", "FORMAT", flags->format, "md (default), csv, tex or json");
   options.add("--what", "KIND", flags->what,
               "Show only these tables: " + join(table_kinds()) +
-                  ", or all (default: all; accuracy with --format tex)");
+                  ", or all but columns, losses and intervals (all, the default; accuracy with "
+                  "--format tex)");
   options.add("--protocol", "NAME", flags->protocols, "Show only this protocol (default: all)");
   options.add(
       "--only", "PATTERN", flags->only,
       "Show only the cells whose SEQUENCE/NAME, SEQUENCE or NAME matches this pattern (* and ?)");
   add_look_options(options, *flags);
-  options.add_flag(
-      "--columns", flags->columns,
-      "Show points by class, range and height, and intervals, in place of the usual tables");
   options.add_flag("--with-published", flags->with_published,
                    "Also show published rows for the same frames of the same sequence");
   options.set_footer(
       "Examples:\n"
       "  raymoval table out/street\n"
-      "  raymoval table out/street --columns\n"
+      "  raymoval table out/street --what losses,intervals\n"
       "  raymoval table out/street --protocol dynamicmap\n"
       "  raymoval table out/street --only 'street/raymoval*' --rates PR,RR,F1 --sort F1\n"
       "  raymoval table out/kitti --with-published --format tex\n"
       "  raymoval table out/street --format tex --what times,stages\n"
-      "  raymoval table out/kitti --layout paper --decimals 3 --names 'raymoval:offline=Raymoval "
-      "(ours)' --format tex");
+      "  raymoval table out/kitti --layout paper --decimals 3 --format tex");
   return {options.name(), [flags] { return show(*flags); }};
 }
 

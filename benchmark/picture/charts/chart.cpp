@@ -88,15 +88,6 @@ void Chart::line(const std::vector<ChartPoint>& points, const std::string& look,
       fmt::format("<polyline class=\"{}\"{} points=\"{}\"/>\n", look, stroke, points_text(points));
 }
 
-void Chart::rectangle(double x, double y, double width, double height, const Colour& colour,
-                      const std::string& hint) {
-  elements_ += fmt::format(
-      "<rect class=\"mark\" fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">"
-      "<title>{}</title></rect>\n",
-      colour_text(colour), length_text(x), length_text(y), length_text(width), length_text(height),
-      xml_escaped(hint));
-}
-
 void Chart::marker(const ChartPoint& at, const SeriesStyle& look, const std::string& hint) {
   static const std::vector<ChartPoint> kCorners[] = {
       {},

@@ -46,9 +46,6 @@ class Chart {
   /// @param look class "axis", "grid", "iso" or "front", or "joined" with a colour
   void line(const std::vector<ChartPoint>& points, const std::string& look,
             std::optional<Colour> colour = {});
-  /// @param hint is shown when a pointer rests on the rectangle
-  void rectangle(double x, double y, double width, double height, const Colour& colour,
-                 const std::string& hint);
   /// Draws a marker of about 10 pixels. @param hint is shown when a pointer rests on it
   void marker(const ChartPoint& at, const SeriesStyle& look, const std::string& hint);
   /// @param width at least; it grows with the title

@@ -18,10 +18,6 @@ namespace raymoval {
 /// @param protocol its name in the run
 Chart pr_rr_chart(const RunResults& results, const std::string& protocol);
 
-/// Shows the milliseconds per scan of each method by stage, as stacked bars. The chart is empty
-/// if there are no times.
-Chart stage_chart(const RunResults& results);
-
 /// Shows the share of moving points (upwards) against the mean confidence (to the right): a marker
 /// for each bin with points, a line for each method with confidences. A dotted diagonal marks
 /// confidences that equal the share. The chart is empty if no method has confidences.

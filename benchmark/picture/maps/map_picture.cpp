@@ -41,9 +41,7 @@ struct MapRow {
 std::vector<const KeptCell*> chosen_cells(const KeptRun& run, const MapPictureOptions& options) {
   std::vector<std::string> names;
   for (const KeptCell& cell : run.cells()) names.push_back(cell.sequence + "/" + cell.name);
-  CellSelection selection;
-  selection.only = options.only;
-  const std::vector<bool> fits = select_cells(selection, names, "run");
+  const std::vector<bool> fits = select_cells(options.only, names, "run");
   std::vector<const KeptCell*> chosen;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool wanted = options.only.empty() ? !run.cells()[i].control : fits[i];
@@ -158,6 +156,17 @@ void draw_row(Canvas& canvas, const MapRow& row, int column_width, int top) {
   }
 }
 
+/// @param around the window around the sensor's path
+[[noreturn]] void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around) {
+  const auto text = [](const WorldWindow& window) {
+    return fixed_text(window.x_min, 0) + ":" + fixed_text(window.x_max, 0) + ":" +
+           fixed_text(window.y_min, 0) + ":" + fixed_text(window.y_max, 0);
+  };
+  throw UsageError("--crop " + text(crop) +
+                   ": no point lies there. The sensor and 30 m around it are within " +
+                   text(around) + " (metres of the world frame).");
+}
+
 /// @throws UsageError if no point of the rows that were read lies within `crop`
 void check_crop(const WorldWindow& crop, const std::vector<MapRow>& rows) {
   std::optional<WorldWindow> around;
@@ -199,16 +208,6 @@ WorldWindow window_around_way(const ScanSource& scans) {
   std::vector<Eigen::Vector3d> places;
   for (std::size_t i = 0; i < scans.size(); ++i) places.push_back(scans.pose(i).translation());
   return window_around(places, kMapAround);
-}
-
-void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around) {
-  const auto text = [](const WorldWindow& window) {
-    return fixed_text(window.x_min, 0) + ":" + fixed_text(window.x_max, 0) + ":" +
-           fixed_text(window.y_min, 0) + ":" + fixed_text(window.y_max, 0);
-  };
-  throw UsageError("--crop " + text(crop) +
-                   ": no point lies there. The sensor and 30 m around it are within " +
-                   text(around) + " (metres of the world frame).");
 }
 
 Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,

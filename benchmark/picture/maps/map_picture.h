@@ -31,22 +31,4 @@ Canvas map_picture(const KeptRun& run, const MapPictureOptions& options,
 /// The area that the sensor has seen well: 30 m around its path.
 WorldWindow window_around_way(const ScanSource& scans);
 
-/// Refuses a crop without a point. @param around the window around the sensor's path, for the
-/// message
-[[noreturn]] void throw_empty_crop(const WorldWindow& crop, const WorldWindow& around);
-
-struct OverviewOptions {
-  std::optional<WorldWindow> crop;  ///< If empty, 20 m around the sensor's path.
-  int panel_pixels = 860;           ///< The width of each of the two maps.
-};
-
-/// Shows the effect of a method in one picture, seen obliquely from above: the map of all scans
-/// with the trails of moving objects, the cleaned map, and, at a larger scale, the place where the
-/// method removed most moving points. Points more than 4 m above the sensor are left out, so that
-/// trees do not hide the street.
-/// @throws UsageError if no point lies within the crop; DataError if removals or data are missing
-/// or have changed since the run; Cancelled
-Canvas overview_picture(const KeptRun& run, const KeptCell& cell, const OverviewOptions& options,
-                        const OpenContext& context);
-
 }  // namespace raymoval

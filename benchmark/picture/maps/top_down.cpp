@@ -65,8 +65,7 @@ void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
       const Eigen::Vector3d world = scan.T_world_sensor * point;
       const bool moving = classes.moving(labels[k]);
       for (std::size_t m = 0; m < masks.size(); ++m) {
-        visit(m, {world, world.z() - scan.T_world_sensor.translation().z(),
-                  outcome_of(moving, removed[m][k] != 0)});
+        visit(m, {world, outcome_of(moving, removed[m][k] != 0)});
       }
     }
     if (context.progress != nullptr) context.progress->advance();

@@ -39,7 +39,6 @@ constexpr Outcome outcome_of(bool moving, bool removed) {
 /// A shown point with its verdict.
 struct PointOutcome {
   Eigen::Vector3d world;  ///< In the frame of the scans, metres.
-  double above_sensor;    ///< Height above the sensor, metres.
   Outcome outcome;
 };
 /// Receives a point once for each of the masks, with the number of the mask.

@@ -114,7 +114,6 @@ Facts comparison_facts(const Cell& cell) {
         "T_sensor", "sensor_origin", "time_offset_s", "deskew"}) {
     if (data.contains(part)) facts[std::string("data ") + part] = data[part].dump();
   }
-  // Results of earlier versions have no up direction; it was z.
   if (!cell.data->up.empty() && cell.data->up != "z") facts["data up"] = cell.data->up;
   return facts;
 }

@@ -20,10 +20,6 @@ using std::filesystem::path;
 
 constexpr const char* kRemovals = "removals";
 
-path repeat_file(const path& folder, int number) {
-  return folder / ("timing-" + std::to_string(number) + ".json");
-}
-
 /// Whether the kept removals are those of the cell's scores.
 bool has_removals(const path& folder, const Cell& cell, const ScanSource& scans) {
   if (!cell.masks) return false;
@@ -43,20 +39,13 @@ void check_replaceable(const path& removals) {
                   ": holds files that are not from a run, so it is not replaced. Move them away.");
 }
 
-/// Whether a run writes files of this name into a cell's folder.
-bool is_cell_file(const path& name) {
-  return name == "cell.json" ||
-         (name.string().starts_with("timing-") && name.extension() == ".json");
-}
-
 /// Removes files of a killed run from a cell's folder, by names that only runs use.
 void sweep_cell(const path& folder) {
   for (const path& entry : entries_of(folder)) {
     const path name = name_of_part(entry);
-    // Earlier versions left the second name.
-    if (name == kRemovals || entry.filename() == "removals.part") remove_removals(entry);
+    if (name == kRemovals) remove_removals(entry);
     std::error_code ignored;
-    if (is_cell_file(name)) std::filesystem::remove(entry, ignored);
+    if (name == "cell.json") std::filesystem::remove(entry, ignored);
   }
 }
 
@@ -106,13 +95,6 @@ StoredCell CellStore::find(const CellName& name, const CellIdentity& wanted,
   }
 }
 
-std::optional<RepeatRecord> CellStore::find_repeat(const CellName& cell, int number,
-                                                   const std::string& key) const {
-  auto repeat = if_whole([&] { return read_repeat(repeat_file(folder(cell), number)); });
-  // If it is not there, or damaged, the method is run once more.
-  return repeat && repeat->key == key ? std::move(repeat) : std::nullopt;
-}
-
 bool CellStore::has_result(const CellName& cell) const {
   const auto stored = if_whole([&] { return read_cell(folder(cell) / "cell.json"); });
   return stored && stored->ok();
@@ -143,10 +125,6 @@ void CellStore::keep(const Cell& cell, const path& removals) const {
     if (error) throw DataError(place.string() + ": cannot be made (" + error.message() + ").");
   }
   write_cell(cell_folder / "cell.json", cell);
-}
-
-void CellStore::keep_repeat(const CellName& cell, const RepeatRecord& repeat) const {
-  write_repeat(repeat_file(folder(cell), repeat.number), repeat);
 }
 
 void CellStore::sweep() const {

@@ -39,10 +39,6 @@ class CellStore {
   /// @param confidence whether the cell's confidence must have been scored
   [[nodiscard]] StoredCell find(const CellName& name, const CellIdentity& wanted,
                                 const ScanSource* scans, bool confidence = false) const;
-  /// Repeat `number` (2, 3 ...) of the cell with `key`; no value if there is none.
-  [[nodiscard]] std::optional<RepeatRecord> find_repeat(const CellName& cell, int number,
-                                                        const std::string& key) const;
-
   /// Whether there is a complete cell with a result, of any run. @throws UnreadableError
   [[nodiscard]] bool has_result(const CellName& cell) const;
 
@@ -55,8 +51,6 @@ class CellStore {
   /// @throws DataError if a file cannot be written, or if a file that no run made would be lost;
   /// then nothing has changed
   void keep(const Cell& cell, const std::filesystem::path& removals = {}) const;
-  void keep_repeat(const CellName& cell, const RepeatRecord& repeat) const;
-
   /// Removes half-written files of killed runs from the cells' folders, by names that only runs use
   /// (see `is_part_name`). The caller holds the folder's lock.
   void sweep() const;

@@ -116,16 +116,6 @@ std::string why_left_out(const Cell& cell, const RunRecord& record,
   return cell.ok() ? protocol_difference(protocols_of(cell), protocols) : "";
 }
 
-std::vector<Measurement> further_runs(const CellStore& store, const Cell& cell) {
-  std::vector<Measurement> runs;
-  if (!cell.ok() || !cell.masks) return runs;
-  for (int round = 2;; ++round) {
-    const auto repeat = store.find_repeat({cell.sequence, cell.name}, round, cell.key);
-    if (!repeat || repeat->digest != cell.masks->digest) return runs;
-    runs.push_back(repeat->measured);
-  }
-}
-
 }  // namespace
 
 std::optional<RunRecord> present_record(const path& out) {
@@ -244,10 +234,7 @@ EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
     try {
       Cell cell = read_cell(file);
       why = why_left_out(cell, record, asked.protocols);
-      if (why.empty()) {
-        merge_repeats(cell, further_runs(store, cell));
-        earlier.kept.push_back(std::move(cell));
-      }
+      if (why.empty()) earlier.kept.push_back(std::move(cell));
     } catch (const UnreadableError&) {
       throw;
     } catch (const DataError&) {
@@ -255,23 +242,6 @@ EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
     if (!why.empty()) earlier.left_out.push_back(name.title() + ": " + why);
   }
   return earlier;
-}
-
-void merge_repeats(Cell& cell, const std::vector<Measurement>& further) {
-  if (further.empty() || !cell.ok() || !cell.measured) return;
-  std::vector<Measurement> runs = further;
-  runs.insert(runs.begin(), *cell.measured);
-  std::vector<double> means;
-  for (const Measurement& run : runs) means.push_back(run.mean_seconds);
-  std::stable_sort(runs.begin(), runs.end(),
-                   [](const auto& a, const auto& b) { return a.total_seconds < b.total_seconds; });
-  cell.measured = runs[(runs.size() - 1) / 2];
-  cell.measured->repeats = std::move(means);
-  for (const Measurement& run : runs) {
-    if (!run.side_by_side) continue;
-    cell.measured->side_by_side =
-        std::max(*run.side_by_side, cell.measured->side_by_side.value_or(0));
-  }
 }
 
 }  // namespace raymoval

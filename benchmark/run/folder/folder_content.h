@@ -53,12 +53,8 @@ struct EarlierCells {
   [[nodiscard]] std::vector<std::string> lines() const;
 };
 
-/// Reads the cells of `record` that `asked` does not have, with their repeats.
+/// Reads the cells of `record` that `asked` does not have.
 EarlierCells read_earlier_cells(const CellStore& store, const RunRecord& record,
                                 const RunRecord& asked);
-
-/// Gives `cell` the measurement of the run of median time among itself and its further runs, and
-/// lists the times of all runs.
-void merge_repeats(Cell& cell, const std::vector<Measurement>& further);
 
 }  // namespace raymoval

@@ -139,7 +139,7 @@ SequenceRequest KeptRun::place_of(const std::string& sequence) const {
   if (known != nullptr && known->place) return *known->place;
   if (data_.empty()) {
     throw DataError(folder_.string() + ": run.json has no folder for sequence '" + sequence +
-                    "' (it is missing, or of an earlier version). Name its folder with --data.");
+                    "' (it is missing). Name its folder with --data.");
   }
   SequenceRequest place;
   if (known != nullptr && !known->data.frames.empty()) {

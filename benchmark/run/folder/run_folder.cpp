@@ -34,13 +34,6 @@ bool is_run_file(const path& name) {
   return std::find(kNames.begin(), kNames.end(), text) != kNames.end();
 }
 
-/// "run.json.123.part", as earlier versions named unfinished files.
-bool is_part_of_earlier_version(const path& name) {
-  const path number = name.stem().extension();
-  return name.extension() == ".part" && number.string().size() > 1 &&
-         parse_number<long>(number.string().substr(1)) && is_run_file(name.stem().stem());
-}
-
 bool is_lock(const path& entry) {
   if (entry.filename() != kLockFile || !is_file(entry)) return false;
   const auto start = if_whole([&] { return read_piece(entry, 0, 8); });
@@ -58,8 +51,7 @@ bool holds_cells(const path& entry) {
 /// Entries of a run folder without a marker: a run was ended early, or a user copied cells
 /// together.
 bool may_be_ours(const path& entry) {
-  return is_run_file(name_of_part(entry)) || is_part_of_earlier_version(entry.filename()) ||
-         is_lock(entry) || holds_cells(entry);
+  return is_run_file(name_of_part(entry)) || is_lock(entry) || holds_cells(entry);
 }
 
 /// Whether a run.json was written by a run and not changed since.
@@ -84,7 +76,7 @@ void check_is_run_folder(const path& out) {
       " Nothing was changed. Name a new or empty folder, or that of an earlier run to go on with "
       "it.";
   if (has_file(out / "run.json")) {
-    if (is_run_record(out / "run.json")) return;  // Of an earlier version, which set no marker.
+    if (is_run_record(out / "run.json")) return;  // Copied without its marker.
     throw UsageError(where + "its run.json is not as raymoval wrote it, so the folder may belong " +
                      "to another program." + remedy);
   }

@@ -17,7 +17,7 @@ inline constexpr const char* kLockFile = "run.lock";
 inline constexpr const char* kRunMarker = ".raymoval-run";
 
 /// Makes the folder of a run and marks it. Without a marker it may be new or empty, hold only cells
-/// of a run, or have the run.json of an earlier version.
+/// of a run, or have the run.json of a run.
 /// @throws UsageError for any other folder, which is not changed; DataError
 void prepare_run_folder(const std::filesystem::path& out);
 

@@ -34,20 +34,7 @@ struct RecordReading {
   std::optional<std::string> point_layout = std::nullopt;
 };
 
-/// A real intensity that a file also stores as a whole number from 0 to 65,535, for viewers.
-struct ShownIntensity {
-  PointField field;
-  std::string exact;  ///< The field of the file with the exact value.
-};
-
-/// Options for writing a file of point records.
-struct RecordWriting {
-  /// LAS: factor from a real intensity to the whole number from 0 to 65,535 that viewers show. The
-  /// exact value is stored beside it.
-  double intensity_scale = 1.0;
-};
-
-/// The content of a file of points, decompressed.
+/// The content of a file of points.
 struct CloudBytes {
   const std::filesystem::path& path;  ///< For messages.
   std::string_view text;
@@ -96,15 +83,12 @@ struct CloudFormat {
   Cloud (*read_cloud)(const CloudBytes& file, const Eigen::Vector3d& origin) = nullptr;
   PointRecords (*read_records)(const CloudBytes& file) = nullptr;
   /// Null if the format is only read.
-  std::unique_ptr<RecordEncoder> (*encoder)(const std::filesystem::path& path,
-                                            const RecordWriting& writing) = nullptr;
+  std::unique_ptr<RecordEncoder> (*encoder)(const std::filesystem::path& path) = nullptr;
   /// As `format_losses`; null if the format is only read.
   std::vector<std::string> (*lost)(const RecordLayout& layout) = nullptr;
   /// The layout of the records of a file without reading its points; null if that is no faster.
   RecordLayout (*read_layout)(const std::filesystem::path& path,
                               const RecordReading& reading) = nullptr;
-  /// As `shown_intensity`; null if the format stores exact values only.
-  std::optional<ShownIntensity> (*shown_intensity)(const RecordLayout& layout) = nullptr;
 };
 
 /// PCD 0.7: ascii, binary and binary_compressed are read, binary is written. Padding (fields "_")

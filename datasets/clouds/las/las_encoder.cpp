@@ -139,8 +139,7 @@ std::string variable_record(std::string_view user, std::uint16_t id, std::string
 
 class LasEncoder : public RecordEncoder {
  public:
-  LasEncoder(const std::filesystem::path& path, const RecordWriting& writing)
-      : path_(path), intensity_scale_(writing.intensity_scale) {}
+  explicit LasEncoder(const std::filesystem::path& path) : path_(path) {}
 
   void start(const PointRecords& first) override {
     layout_ = first.layout;
@@ -264,8 +263,7 @@ class LasEncoder : public RecordEncoder {
   }
 
   void put_intensity(const PointRecords& rows, std::size_t point, char* to) const {
-    const PointField& field = *mapping_.shown_intensity;
-    const double value = rows.value(point, field) * (field.type == 'F' ? intensity_scale_ : 1.0);
+    const double value = rows.value(point, *mapping_.shown_intensity);
     const double shown = std::isnan(value) ? 0.0 : std::clamp(std::nearbyint(value), 0.0, 65535.0);
     put(to + 12, static_cast<std::uint16_t>(shown));
   }
@@ -279,7 +277,6 @@ class LasEncoder : public RecordEncoder {
   }
 
   std::filesystem::path path_;
-  double intensity_scale_;
   RecordLayout layout_;
   LasMapping mapping_;
   PositionFields position_;
@@ -293,20 +290,8 @@ class LasEncoder : public RecordEncoder {
 
 }  // namespace
 
-std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
-                                           const RecordWriting& writing) {
-  return std::make_unique<LasEncoder>(path, writing);
-}
-
-std::optional<ShownIntensity> shown_in_las(const RecordLayout& layout) {
-  const LasMapping mapping = map_to_las(layout);
-  const PointField* field = mapping.shown_intensity;
-  if (field == nullptr || field->type != 'F') return std::nullopt;
-  const auto exact =
-      std::find_if(mapping.extra.begin(), mapping.extra.end(),
-                   [&](const LasMapping::Extra& extra) { return extra.of == field->name; });
-  if (exact == mapping.extra.end()) return std::nullopt;
-  return ShownIntensity{*field, exact->name};
+std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path) {
+  return std::make_unique<LasEncoder>(path);
 }
 
 std::vector<std::string> lost_in_las(const RecordLayout& layout) {

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,16 +93,12 @@ std::string extra_description(const PointField& field, const std::string& name,
 /// Writes LAS 1.4: point format 6, with colours 7, with near infrared 8.
 ///
 /// A field with the name and type of a standard LAS field (or a smaller whole type) becomes that
-/// field; every other field becomes extra bytes. Real intensities (rounded, see
-/// `RecordWriting::intensity_scale`) and colours in one number are also written to the standard
-/// fields for viewers. Coordinates are whole multiples of a scale from an offset. Scale, offset and
-/// a WKT reference system are copied from the LAS file of the first points; for other points, the
-/// scale is 0.001 m and the offset is near the first points.
-std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path,
-                                           const RecordWriting& writing);
-
-/// As `shown_intensity`.
-std::optional<ShownIntensity> shown_in_las(const RecordLayout& layout);
+/// field; every other field becomes extra bytes. Real intensities (rounded)
+/// and colours in one number are also written to the standard fields for viewers. Coordinates are
+/// whole multiples of a scale from an offset. Scale, offset and a WKT reference system are copied
+/// from the LAS file of the first points; for other points, the scale is 0.001 m and the offset is
+/// near the first points.
+std::unique_ptr<RecordEncoder> las_encoder(const std::filesystem::path& path);
 
 /// As `format_losses`.
 std::vector<std::string> lost_in_las(const RecordLayout& layout);

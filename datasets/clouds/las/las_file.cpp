@@ -80,7 +80,6 @@ PointRecords read_las_records(const CloudBytes& file) {
 
 CloudFormat las_format() {
   CloudFormat format{".las", read_las_cloud, read_las_records, las_encoder, lost_in_las};
-  format.shown_intensity = shown_in_las;
   return format;
 }
 

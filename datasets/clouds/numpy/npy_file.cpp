@@ -5,13 +5,10 @@
 #include <cstdio>
 #include <memory>
 #include <new>
-#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/format/field_names.h"
-#include "datasets/clouds/format/gzip.h"
 #include "datasets/clouds/format/stored_points.h"
 #include "datasets/clouds/numpy/npy_head.h"
 
@@ -139,6 +136,22 @@ PointRecords read_npy_records(const CloudBytes& file) {
   records.height = points.height;
   (void)position_fields(records.layout, file.path.string());
   return records;
+}
+
+/// Limit of the decompressed size. Deflate cannot give more than 1,032 times its bytes.
+std::uint64_t most_decompressed(std::uint64_t packed) {
+  return std::min<std::uint64_t>(std::uint64_t{1} << 30, packed * 1000 + (1 << 20));
+}
+
+/// @throws DataError if `packed` deflated bytes cannot decompress to `unpacked` bytes within the
+///   limit: 1 GiB, and 1,000 times the compressed bytes plus 1 MiB
+/// @param where begins the message
+void check_decompressed(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
+  if (unpacked <= most_decompressed(packed)) return;
+  throw DataError(where + ": decompresses to more than " + grouped_text(most_decompressed(packed)) +
+                  " bytes, the limit for " + grouped_text(packed) +
+                  " compressed ones (1,000 times as many and 1 MiB, at most 1 GiB). Decompress it "
+                  "yourself if you trust it.");
 }
 
 /// A zip archive in memory, by libzip.
@@ -354,8 +367,7 @@ std::vector<std::string> lost_in_npy(const RecordLayout& layout) {
 
 CloudFormat npy_format() {
   CloudFormat format{".npy", read_npy_cloud, read_npy_records};
-  format.encoder = [](const std::filesystem::path&,
-                      const RecordWriting&) -> std::unique_ptr<RecordEncoder> {
+  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
     return std::make_unique<NpyEncoder>();
   };
   format.lost = lost_in_npy;

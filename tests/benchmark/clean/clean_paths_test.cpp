@@ -102,17 +102,16 @@ TEST_CASE("Outputs do not stand in each other's place") {
 TEST_CASE("Only what an earlier run wrote into a folder is replaced") {
   const test::TemporaryFolder folder;
   CleanPaths paths;
-  paths.tiled = true;
-  paths.map = folder.path() / "tiles";
-  fs::create_directories(paths.map);
+  paths.scans = folder.path() / "scans";
+  fs::create_directories(paths.scans);
   check_paths(paths);
-  write_atomically(paths.map / "tile_0_0.pcd", "points");
+  write_atomically(paths.scans / "000000.pcd", "points");
   CHECK_THROWS_WITH(check_paths(paths), Contains("--overwrite"));
   paths.overwrite = true;
   CHECK_THROWS_WITH(check_paths(paths), Contains("was not written by"));
-  write_atomically(paths.map / "manifest.json",
-                   R"({"written_by": "raymoval", "tiles": [{"file": "tile_0_0.pcd"}]})");
+  write_atomically(paths.scans / "cleaned.json",
+                   R"({"written_by": "raymoval", "files": ["000000.pcd"]})");
   check_paths(paths);
-  write_atomically(paths.map / "notes.txt", "mine");
+  write_atomically(paths.scans / "notes.txt", "mine");
   CHECK_THROWS_WITH(check_paths(paths), Contains("notes.txt"));
 }

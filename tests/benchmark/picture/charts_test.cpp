@@ -123,19 +123,6 @@ TEST_CASE("Points of a sweep look alike and are joined") {
   CHECK(count(svg, "<circle") == 3);  // Two points and their legend.
 }
 
-TEST_CASE("Stages stand one behind the other, and what has no name is told") {
-  const std::string svg = stage_chart(two_points()).svg();
-  CHECK(is_well_formed(svg));
-  // x: 500 ms per scan fill the 778 pixels beside the total; of those the stage takes 375.
-  CHECK_THAT(svg, Contains("x=\"16\" y=\"62\" width=\"583.5\" height=\"16\"><title>x, cast: 375.0 "
-                           "ms</title>"));
-  CHECK_THAT(svg, Contains("x=\"599.5\" y=\"62\" width=\"194.5\" height=\"16\"><title>x, other: "
-                           "125.0 ms</title>"));
-  RunResults nothing = two_points();
-  nothing.times.clear();
-  CHECK(stage_chart(nothing).empty());
-}
-
 TEST_CASE("Accuracy against time: logarithmic, with the line that nobody beats") {
   const std::string svg = accuracy_time_chart(two_points(), "erasor").svg();
   CHECK(is_well_formed(svg));
@@ -154,8 +141,8 @@ TEST_CASE("Charts take any name, and the same results give the same bytes") {
   results.methods[1] = results.cells[1].name = results.times[0].cell = odd;
   results.sequences[0] = "<s>";
   for (Cell& one : results.cells) one.sequence = "<s>";
-  for (const std::string& svg : {pr_rr_chart(results, "erasor").svg(), stage_chart(results).svg(),
-                                 accuracy_time_chart(results, "erasor").svg()}) {
+  for (const std::string& svg :
+       {pr_rr_chart(results, "erasor").svg(), accuracy_time_chart(results, "erasor").svg()}) {
     CHECK(is_well_formed(svg));
     CHECK_THAT(svg, Contains("a&lt;b &amp; &quot;c&quot; \xEF\xBF\xBD \xC3\xA9"));
   }
@@ -183,21 +170,6 @@ TEST_CASE("No colour comes twice in a chart") {
   }
 }
 
-TEST_CASE("A bar of nine stages has nine colours") {
-  RunResults results;
-  results.times = {{"x", 1, 9.0, 0.0, {}, 1, 1}};
-  for (int i = 0; i < 9; ++i) results.times[0].stages.emplace_back("s" + std::to_string(i), 1.0);
-  const std::string svg = stage_chart(results).svg();
-  std::vector<std::string> fills;
-  for (std::size_t at = svg.find("fill=\"#"); at != std::string::npos;
-       at = svg.find("fill=\"#", at + 1)) {
-    fills.push_back(svg.substr(at + 6, 7));
-  }
-  REQUIRE(fills.size() == 18);  // In the bar and below it.
-  std::sort(fills.begin(), fills.end());
-  CHECK(std::unique(fills.begin(), fills.end()) - fills.begin() == 9);
-}
-
 TEST_CASE("Points of a sweep carry what they were set to, apart from each other") {
   RunResults results = two_points();
   results.sweeps = {{"x", "m", {{"tau", "0.1"}}}, {"y", "m", {{"tau", "0.35"}}}};
@@ -215,20 +187,6 @@ TEST_CASE("One panel is large and has the methods' names, several have not") {
   CHECK(count(pr_rr_chart(results, "erasor").svg(), "class=\"small\"") == 2);
   results.sequences.push_back("t");
   CHECK(count(pr_rr_chart(results, "erasor").svg(), "class=\"small\"") == 0);
-}
-
-TEST_CASE("A stage has one colour in all bars") {
-  RunResults results = two_points();
-  results.times[1].stages = {{"read", 0.1}, {"cast", 0.2}};
-  const std::string svg = stage_chart(results).svg();
-  const auto colour_of = [&](const std::string& title) {
-    const std::size_t end = svg.find("<title>" + title);
-    REQUIRE(end != std::string::npos);
-    return svg.substr(svg.rfind("fill=\"", end), 14);
-  };
-  CHECK(colour_of("x, cast") == colour_of("y, cast"));
-  CHECK(colour_of("y, read") != colour_of("y, cast"));
-  CHECK(colour_of("x, other") == colour_of("y, other"));
 }
 
 TEST_CASE("Rates over a parameter: each point is where its value and its rate say") {

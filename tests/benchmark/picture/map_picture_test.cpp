@@ -130,13 +130,9 @@ TEST_CASE("A crop in which no point lies is refused with the place where the sen
   MapPictureOptions map = half_metre("remove-all:default");
   map.crop = WorldWindow{1000, 2000, 1000, 2000};
   CHECK_THROWS_WITH(map_picture(run, map, {}), says);
-  OverviewOptions overview;
-  overview.crop = map.crop;
-  CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "oracle:default"), overview, {}), says);
   // One of the two points is enough.
-  overview.crop = map.crop = WorldWindow{4, 9, 9, 14};
+  map.crop = WorldWindow{4, 9, 9, 14};
   CHECK_NOTHROW(map_picture(run, map, {}));
-  CHECK_NOTHROW(overview_picture(run, run.cell("two", "oracle:default"), overview, {}));
   // If no cell has a result, no point is searched.
   MapPictureOptions failed = half_metre("broken:default");
   failed.crop = WorldWindow{1000, 2000, 1000, 2000};
@@ -174,10 +170,6 @@ TEST_CASE("Pictures of points say what they lack") {
   const KeptRun run = bare.kept();
   CHECK_THROWS_WITH(map_picture(run, half_metre("noop:default"), {}),
                     Contains("two / noop:default") && Contains("--keep-removals"));
-  CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "noop:default"), {}, {}),
-                    Contains("--keep-removals"));
-  CHECK_THROWS_WITH(overview_picture(run, run.cell("two", "broken:default"), {}, {}),
-                    Contains("it has no idea"));
   CHECK_THROWS_WITH(map_picture(run, half_metre("nop*"), {}), Contains("nop*"));
   CHECK_THROWS_AS(KeptRun((bare.folder.path() / "nowhere").string(), ""), UsageError);
 }
@@ -225,22 +217,6 @@ TEST_CASE("Cells of a map are half open, and what lies outside the window is lef
   raster.add({2.0, 0.5, 0.0}, Outcome::kTruePositive);
   raster.add({-0.1, 0.5, 0.0}, Outcome::kTruePositive);
   CHECK_FALSE(raster.shown(0, 1, outcome));
-}
-
-TEST_CASE("An overview has both colours of what moved") {
-  const TwoPointRun two;
-  const KeptRun run = two.kept();
-  const Canvas image = overview_picture(run, run.cell("two", "oracle:default"), {}, {});
-  std::size_t moving = 0, removed = 0;
-  for (int y = 0; y < image.height() - 50; ++y) {  // Without the legend.
-    for (int x = 0; x < image.width(); ++x) {
-      moving += image.at(x, y) == verdict_colours::kFalseNegative ? 1 : 0;
-      removed += image.at(x, y) == verdict_colours::kTruePositive ? 1 : 0;
-    }
-  }
-  CHECK(moving ==
-        4);  // One point of 2 x 2 pixels in the map of all scans, none in the cleaned one.
-  CHECK(removed == 4);  // And one in the close view.
 }
 
 TEST_CASE("A run of somebody else makes no scene") {

@@ -50,21 +50,19 @@ bool may_be_missing(const Pointer& place) {
   for (const char* part :
        {"/parameters/", "/options/", "/counts/", "/rates/", "/undefined", "/values/"}) {
     const bool is_named = text.find(part) != std::string::npos;
-    const bool of_column = std::string(part) == "/values/" && place.back() != "recall" &&
-                           place.back() != "residue" && place.back() != "undefined";
+    const bool of_column =
+        std::string(part) == "/values/" && place.back() != "recall" && place.back() != "residue";
     if (is_named && !of_column && place.back() != "undefined") return true;
-    if (is_named && text.starts_with("/columns") && !of_column) return true;
   }
   static const std::vector<std::string> kOptional = {
-      "schema_version", "key",          "data",
-      "columns",        "confidence",   "masks",
-      "measured",       "sensor_basis", "up",
-      "up_source",      "max",          "scan_period_s",
-      "drop_ego",       "label_rule",   "fingerprint",
-      "intervals",      "median",       "p90",
-      "early",          "late",         "peak_memory_mib",
-      "repeats",        "T_sensor",     "time_offset_s",
-      "deskew",         "losses"};
+      "schema_version",  "key",          "data",
+      "columns",         "confidence",   "masks",
+      "measured",        "sensor_basis", "up",
+      "up_source",       "max",          "scan_period_s",
+      "drop_ego",        "label_rule",   "fingerprint",
+      "intervals",       "median",       "p90",
+      "peak_memory_mib", "T_sensor",     "time_offset_s",
+      "deskew",          "losses"};
   return std::find(kOptional.begin(), kOptional.end(), place.back()) != kOptional.end();
 }
 
@@ -154,40 +152,4 @@ TEST_CASE("Other people's results have no name that would be more than a name", 
       CHECK_THAT(error_with(name, place), Contains("the name "));
     }
   }
-}
-
-TEST_CASE("Files of earlier versions are read", "[result]") {
-  ordered_json run = to_json(RunRecord{"quick"});
-  run["suite"]["sequences"].push_back(to_json(DataRecord{"town"}));
-  for (const char* name : {"x", "y"}) {
-    run["suite"]["methods"].push_back({{"name", name},
-                                       {"method", name},
-                                       {"version", "1"},
-                                       {"parameters", ordered_json::object()}});
-  }
-  run.erase("cells");
-  run.erase("places");
-  run["suite"]["protocols"].push_back(
-      {{"name", "erasor"}, {"protocol", "erasor"}, {"options", ordered_json::object()}});
-  run["build"] = {{"version", "0"}, {"compiler", "c"}, {"build_type", "t"}};
-  const std::string file = "run.json";
-  const RunRecord read = run_record_from(run, file);
-  // Each sequence is combined with each method; the path of the sequence is unknown.
-  CHECK(read.cells == std::vector<CellName>{{"town", "x"}, {"town", "y"}});
-  CHECK_FALSE(read.sequences[0].place);
-  CHECK(read.build->commit.empty());
-  CHECK(read.protocols.at(0).version.empty());
-
-  ordered_json old = full_cell();
-  for (const char* key : {"columns", "masks"}) old.erase(key);
-  for (const char* key :
-       {"up", "up_source", "drop_ego", "T_sensor", "time_offset_s", "deskew", "losses"})
-    old["data"].erase(key);
-  for (const char* key : {"early", "late"}) old["measured"]["seconds_per_scan"].erase(key);
-  old["protocols"][0].erase("intervals");
-  const Cell cell = read_as<Cell>(old, file);
-  CHECK_FALSE(cell.columns);
-  CHECK(cell.data->up.empty());
-  CHECK(comparison_facts(cell).count("data up") == 0);  // They took z.
-  CHECK_FALSE(cell.measured->early_seconds);
 }

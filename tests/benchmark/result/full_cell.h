@@ -33,7 +33,7 @@ inline nlohmann::ordered_json full_cell() {
   cell.columns = ColumnRecord{"1", {{"recall", {1, 2}, ""}, {"residue", {0, 0}, "nothing"}}};
   cell.reliability.emplace().bins[9] = {4, 3, 950};
   cell.masks = MaskRecord{"d", 7};
-  cell.measured = {1, 0.1, 0.1, 0.2, 0.1, 0.1, 1.0, 0.5, {{"cast", 0.3}}, 90.0, {0.1, 0.2}};
+  cell.measured = {1, 0.1, 0.1, 0.2, 1.0, 0.5, {{"cast", 0.3}}, 90.0};
   return nlohmann::ordered_json::parse(to_json(cell).dump());
 }
 

@@ -42,54 +42,6 @@ std::string said_of(const char* place, const ordered_json& value) {
 
 }  // namespace
 
-TEST_CASE("Values are read up to the ends of their types, and others are named", "[result]") {
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;  // Sums and differences of counts fit too.
-  const struct {
-    const char* place;
-    ordered_json value;
-    const char* said;  ///< Nothing: it is read.
-  } cases[] = {
-      {"/measured/threads", 2147483647, ""},
-      {"/measured/threads", -2147483648LL, ""},
-      {"/measured/threads", 2147483648LL,
-       "measured.threads: expected a whole number of 32 bits, found 2147483648)"},
-      {"/measured/threads", -2147483649LL, "of 32 bits"},
-      {"/data/label_rule/moving/0", 65535, ""},
-      {"/data/label_rule/moving/0", 0, ""},
-      {"/data/label_rule/moving/0", 65536,
-       "data.label_rule.moving[0]: expected a whole number up to 65535, found 65536"},
-      {"/data/label_rule/moving/0", -1, "a whole number of at least 0"},
-      {"/data/scans", 0, ""},
-      {"/data/scans", 18446744073709551615U, ""},
-      {"/data/scans", 1.0, "data.scans: expected a whole number of at least 0, found 1.0"},
-      {"/masks/removed", kMost, ""},
-      {"/masks/removed", -kMost, ""},
-      {"/masks/removed", kMost + 1, "a whole number of 53 bits"},
-      {"/masks/removed", -kMost - 1, "a whole number of 53 bits"},
-      {"/masks/removed", std::uint64_t{1} << 63U, "of 53 bits"},
-      {"/masks/removed", 1.5, "masks.removed: expected a whole number"},
-      {"/reason",
-       {1, 2},
-       "cell.json: not the results of a run (reason: expected a text, found [1,2]). Run `raymoval "
-       "run` again with the same --out."},
-      // 40 characters with the quotes, and one more.
-      {"/masks/removed", std::string(38, 'x'), "found \"xxx"},
-      {"/masks/removed", std::string(39, 'x'), "found a long string)"},
-      {"/masks/removed", "\xC3\x9F", "found \"\xC3\x9F\")"},  // Unchanged.
-      {"/measured/stages", "x", "measured.stages: expected a list"},
-      {"/method/parameters", {1}, "method.parameters: expected an object"},
-      {"/method/online", 1, "method.online: expected true or false"},
-      {"/status", "fine", "status: expected the status of a cell"}};
-  for (const auto& [place, value, said] : cases) {
-    INFO(place << " = " << value.dump());
-    const std::string found = said_of(place, value);
-    CHECK(found.empty() == (*said == '\0'));
-    CHECK_THAT(found, Contains(said));
-  }
-  CHECK_THROWS_WITH(read_as<Cell>(7, "cell.json"),
-                    Contains("cell.json: not the results of a run (expected an object, found 7)"));
-}
-
 TEST_CASE("What is wrong with a name or a place is told with its field", "[result]") {
   CHECK(said_of("/method/name", "=1") ==
         "cell.json: not the results of a run (method.name: the name begins with '='; expected " +
@@ -97,7 +49,7 @@ TEST_CASE("What is wrong with a name or a place is told with its field", "[resul
   ordered_json run = to_json(RunRecord{"quick"});
   run["suite"]["sequences"].push_back(plain_cell()["data"]);
   run["places"] = ordered_json::parse(R"([{"path": "town", "frames": "one"}])");
-  CHECK_THROWS_WITH(run_record_from(run, "run.json"),
+  CHECK_THROWS_WITH(read_as<RunRecord>(run, "run.json"),
                     Contains("run.json: not the results of a run (places[0]: frame range 'one'"));
   // Two numbers are a list of them.
   Cell cell = read_as<Cell>(plain_cell(), "cell.json");
@@ -121,21 +73,6 @@ TEST_CASE("Parameters keep their types, and what is no number any more stays non
   CHECK(std::isnan(std::get<double>(values[4].second)));
   CHECK(value_text(values[2].second) == "3.0");
   CHECK(value_text(std::string("a\xff")) == "\"a\xef\xbf\xbd\"");
-}
-
-TEST_CASE("Every status has a name, and no other name is one", "[result]") {
-  const std::vector<std::pair<CellStatus, std::string>> names = {
-      {CellStatus::kOk, "ok"},
-      {CellStatus::kFailed, "failed"},
-      {CellStatus::kTimeout, "timeout"},
-      {CellStatus::kOutOfMemory, "out_of_memory"},
-      {CellStatus::kBadData, "bad_data"}};
-  for (const auto& [status, name] : names) {
-    CHECK(status_name(status) == name);
-    CHECK(status_called(name) == status);
-  }
-  CHECK_FALSE(status_called("OK"));
-  CHECK_THROWS_AS(status_name(static_cast<CellStatus>(5)), InternalError);
 }
 
 TEST_CASE("A cell that fails loses its scores, and says why", "[result]") {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "benchmark/result/checks/flat_sweeps.h"
 #include "benchmark/tables/tables.h"
 #include "tests/benchmark/scored_cell.h"
 
@@ -80,47 +79,6 @@ TEST_CASE("Cells without a result are listed with reason and last words") {
   CHECK(table.rows[1].cells[0].text == "not run");
 }
 
-TEST_CASE("A sweep that made no difference is pointed out") {
-  RunResults results = swept_run();
-  CHECK(flat_sweeps(results).empty());  // Without digests nothing is known.
-  results.cells[0].masks = results.cells[2].masks = MaskRecord{"same"};
-  results.cells[1].masks = MaskRecord{"other"};  // Of s2, where there is nothing to compare with.
-  const std::string line =
-      "size had no effect: with each of its 2 values exactly the same points were removed.";
-  CHECK(flat_sweeps(results) == std::vector<std::string>{"sweep of x over size: " + line});
-  const std::vector<TextTable> tables = make_tables(results);
-  const auto sweep = std::find_if(tables.begin(), tables.end(), [](const TextTable& table) {
-    return table.title.starts_with("Sweep of x over size");
-  });
-  REQUIRE(sweep != tables.end());
-  CHECK(sweep->notes.back() == line);
-  results.cells[2].masks = MaskRecord{"different"};
-  CHECK(flat_sweeps(results).empty());
-}
-
-TEST_CASE("Of a sweep over two parameters the one that made no difference is named") {
-  // a changes what is removed, b does not; on s2 neither does.
-  RunResults results;
-  results.sequences = {"s1", "s2"};
-  for (const char* a : {"1", "2"}) {
-    for (const char* b : {"3", "4", "5"}) {
-      const std::string method = std::string("x:a=") + a + ",b=" + b;
-      results.sweeps.push_back({method, "x", {{"a", a}, {"b", b}}});
-      for (const char* sequence : {"s1", "s2"}) {
-        results.cells.push_back(cell(sequence, method, 90, 60, 0.72));
-        results.cells.back().masks = MaskRecord{sequence == std::string("s1") ? a : "always"};
-      }
-    }
-  }
-  CHECK(flat_sweeps(results) ==
-        std::vector<std::string>{"sweep of x over a, b: a had no effect on s2: with each of "
-                                 "its 2 values exactly the same points were "
-                                 "removed.",
-                                 "sweep of x over a, b: b had no effect: with each of its 3 "
-                                 "values exactly the same points were "
-                                 "removed."});
-}
-
 TEST_CASE("Parameters of a foreign run with commas in their names are told apart") {
   RunResults results = swept_run();
   results.sweeps = {{"x:size=1", "x", {{"a", "1"}, {"b", "2"}}},
@@ -128,5 +86,4 @@ TEST_CASE("Parameters of a foreign run with commas in their names are told apart
   CHECK(sweeps_of(results).size() == 2);
   results.sweeps = {{"x:size=1", "x", {{"", "1"}}}, {"x:size=2", "x", {}}};
   CHECK(sweeps_of(results).size() == 2);
-  CHECK(flat_sweeps(results).empty());
 }

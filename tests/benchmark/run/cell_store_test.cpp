@@ -13,7 +13,6 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/checks/differences.h"
 #include "benchmark/result/removals/removal_files.h"
-#include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
 #include "tests/benchmark/small_world.h"
@@ -125,29 +124,6 @@ TEST_CASE("No cell stands beside removals of another one at any moment") {
   }
 }
 
-TEST_CASE("A cell that had no removals goes before those of another one come") {
-  const OneCell one;
-  const auto& [folder, store, masks, cell] = one;
-  store.keep(cell);
-  const fs::path removals = written_removals(store, masks);
-  FolderWatch watch({store.folder(kName)});
-  store.keep(cell, removals);
-  const auto events = watch.events();
-  CAPTURE(events);
-  REQUIRE(position(events, "gone cell.json") < std::ssize(events));
-  CHECK(position(events, "gone cell.json") < position(events, "there removals"));
-}
-
-TEST_CASE("A cell without removals does not stand beside those of an earlier one") {
-  const OneCell one;
-  const auto& [folder, store, masks, cell] = one;
-  store.keep(cell, written_removals(store, masks));
-  CHECK(fs::exists(store.folder(kName) / "removals/000007.label"));
-  store.keep(cell);
-  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
-  CHECK(fs::exists(store.folder(kName) / "cell.json"));
-}
-
 TEST_CASE("A place where a cell could not be kept is refused before it is needed, and left whole") {
   const OneCell one;
   const auto& [folder, store, masks, cell] = one;
@@ -178,38 +154,20 @@ TEST_CASE("A stored result is a whole cell that did not fail") {
   CHECK_FALSE(store.has_result(kName));
 }
 
-TEST_CASE("Removals that were not written in the end leave a cell without any") {
-  const OneCell one;
-  const auto& [folder, store, masks, cell] = one;
-  store.prepare(kName);
-  store.keep(cell, store.new_removals(kName));  // Nothing is there.
-  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
-  CHECK(store.find(kName, identity(), nullptr).state == StoredCell::State::kFresh);
-  store.keep(cell, written_removals(store, masks));
-  store.keep(cell, store.new_removals(kName));
-  CHECK_FALSE(fs::exists(store.folder(kName) / "removals"));
-}
-
 TEST_CASE("What a killed run left of a cell goes before it is run again, and nothing else does") {
   const test::TemporaryFolder folder;
   const CellStore store(folder.path());
   const fs::path place = store.folder(kName);
   make_folder(place);
-  const std::vector<fs::path> left = {new_part_name(place / "cell.json"),
-                                      new_part_name(place / "timing-2.json")};
-  const std::vector<fs::path> foreign = {new_part_name(place / "timing-notes.txt"),
-                                         new_part_name(place / "notes.json"),
-                                         place / "timing-3.json", place / "cell.json"};
+  const std::vector<fs::path> left = {new_part_name(place / "cell.json")};
+  const std::vector<fs::path> foreign = {new_part_name(place / "notes.json"), place / "cell.json"};
   for (const fs::path& file : left) write_atomically(file, "half");
   for (const fs::path& file : foreign) write_atomically(file, "whole");
   write_atomically(place / "keep.txt", "mine");
-  fs::create_directories(place / "removals.part");  // As earlier versions named it.
-  write_atomically(place / "removals.part" / "000000.label", "half");
   store.prepare(kName);
   for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
   for (const fs::path& file : foreign) CHECK(fs::exists(file));
   CHECK(fs::exists(place / "keep.txt"));
-  CHECK_FALSE(fs::exists(place / "removals.part"));
 }
 
 TEST_CASE("A folder that cannot be made is told, and so is --out") {
@@ -289,16 +247,4 @@ TEST_CASE("A damaged cell is run again, and so is a repeat of another cell") {
   const StoredCell damaged = store.find(kName, identity(), nullptr);
   CHECK(damaged.state == State::kStale);
   CHECK(damaged.why == "cell.json is damaged or was changed by hand");
-
-  RepeatRecord repeat{"key", 2, "digest"};
-  repeat.measured.mean_seconds = 0.25;
-  CHECK_FALSE(store.find_repeat(kName, 2, "key"));
-  store.keep_repeat(kName, repeat);
-  const auto found = store.find_repeat(kName, 2, "key");
-  REQUIRE(found);
-  CHECK(found->measured.mean_seconds == 0.25);
-  CHECK_FALSE(store.find_repeat(kName, 2, "other"));
-  CHECK_FALSE(store.find_repeat(kName, 3, "key"));
-  write_atomically(store.folder(kName) / "timing-2.json", "{");
-  CHECK_FALSE(store.find_repeat(kName, 2, "key"));
 }

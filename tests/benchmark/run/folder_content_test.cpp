@@ -58,13 +58,6 @@ Cell cell_of(const RunRecord& run, const CellName& name, double seconds = 1.0) {
   return cell;
 }
 
-RepeatRecord repeat_of(const Cell& cell, int number, double seconds) {
-  RepeatRecord repeat{cell.key, number, cell.masks->digest};
-  repeat.measured.total_seconds = seconds;
-  repeat.measured.mean_seconds = seconds / 2;
-  return repeat;
-}
-
 }  // namespace
 
 TEST_CASE("The record of a folder is there, absent, or refused with what is wrong with it") {
@@ -255,74 +248,4 @@ TEST_CASE("Cells of earlier runs stay in the tables if they fit the others") {
   cell.name = "nobody";
   write_cell(store.folder({"town", "b"}) / "cell.json", cell);
   CHECK(read_earlier_cells(store, record, asked).left_out.at(0) == "town / b: its file is damaged");
-}
-
-TEST_CASE("Earlier cells come with their repeats, as far as these are theirs") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  const RunRecord record = run_of({"town"}, {"a", "b"});
-  const RunRecord asked = run_of({"town"}, {"b"});
-  const CellName name{"town", "a"};
-  Cell cell = cell_of(record, name, 8.0);
-  const auto mean = [&] { return read_earlier_cells(store, record, asked).kept.at(0).measured; };
-  store.keep(cell);
-  store.keep_repeat(name, repeat_of(cell, 2, 2.0));
-  store.keep_repeat(name, repeat_of(cell, 3, 6.0));
-  store.keep_repeat(name, repeat_of(cell, 5, 1.0));  // Number 4 is missing.
-  CHECK(mean()->total_seconds == 6.0);
-  CHECK(mean()->repeats == std::vector<double>{4.0, 1.0, 3.0});
-  // A repeat that removed other points ends the row, and so does one of another cell.
-  RepeatRecord other = repeat_of(cell, 3, 6.0);
-  other.digest = "other";
-  store.keep_repeat(name, other);
-  CHECK(mean()->repeats == std::vector<double>{4.0, 1.0});
-  other = repeat_of(cell, 2, 2.0);
-  other.key = "other";
-  store.keep_repeat(name, other);
-  CHECK(mean()->repeats.empty());
-  CHECK(mean()->total_seconds == 8.0);
-  // Without masks it is unknown.
-  store.keep_repeat(name, repeat_of(cell, 2, 2.0));
-  CHECK(mean()->repeats.size() == 2);
-  cell.masks.reset();
-  store.keep(cell);
-  CHECK(mean()->repeats.empty());
-  cell = cell_of(record, name, 8.0);
-  cell.fail(CellStatus::kFailed, "no idea");
-  store.keep(cell);
-  CHECK(mean()->repeats.empty());
-}
-
-TEST_CASE("The run of median time stands for all of a cell, the lower of two") {
-  const RunRecord run = run_of({"town"}, {"a"});
-  const auto seconds_of = [&](double first, const std::vector<double>& further) {
-    Cell cell = cell_of(run, {"town", "a"}, first);
-    std::vector<Measurement> more;
-    for (const double seconds : further) {
-      more.push_back(repeat_of(cell, 2, seconds).measured);
-    }
-    merge_repeats(cell, more);
-    CHECK(cell.measured->repeats.size() == (further.empty() ? 0 : further.size() + 1));
-    return cell.measured->total_seconds;
-  };
-  CHECK(seconds_of(5.0, {}) == 5.0);
-  CHECK(seconds_of(5.0, {3.0}) == 3.0);
-  CHECK(seconds_of(5.0, {7.0, 3.0}) == 5.0);
-  CHECK(seconds_of(9.0, {7.0, 3.0}) == 7.0);
-  CHECK(seconds_of(1.0, {2.0, 3.0, 4.0}) == 2.0);
-  CHECK(seconds_of(5.0, {4.0, 3.0, 2.0, 1.0}) == 3.0);
-  // Of equal times the first.
-  Cell cell = cell_of(run, {"town", "a"}, 4.0);
-  Measurement equal = *cell.measured;
-  equal.load_seconds = 1.0;
-  merge_repeats(cell, {equal});
-  CHECK(cell.measured->load_seconds == 0.0);
-  CHECK(cell.measured->repeats == std::vector<double>{2.0, 2.0});
-  cell.measured.reset();
-  merge_repeats(cell, {equal});
-  CHECK_FALSE(cell.measured);
-  cell = cell_of(run, {"town", "a"}, 4.0);
-  cell.fail(CellStatus::kFailed, "no idea");
-  merge_repeats(cell, {equal});
-  CHECK(cell.measured->repeats.empty());
 }

@@ -23,7 +23,6 @@ using nlohmann::ordered_json;
 namespace {
 
 std::atomic<int> toy_runs = 0;
-int moody_run = 0;  ///< The run in which "moody" answers otherwise.
 
 /// Answers as `mode` says; counts how often it runs.
 class Toy : public Remover {
@@ -40,8 +39,7 @@ class Toy : public Remover {
       const Scan scan = scans.load(i);
       if (mode_ == "missing" && i == 1) continue;
       Mask mask(scan.size() + (mode_ == "size" ? 1 : 0), 0);
-      const bool odd = mode_ == "moody" && toy_runs == moody_run;
-      for (std::size_t k = odd ? 1 : 0; k < scan.size(); k += 2) mask[k] = 1;
+      for (std::size_t k = 0; k < scan.size(); k += 2) mask[k] = 1;
       sink.accept(i, mask);
       if (mode_ == "twice") sink.accept(i, mask);
     }
@@ -61,7 +59,7 @@ MethodRegistry registry_with(MethodEntry noop) {
   toy.parameters = {{"size", 1.0, {}, {}}};
   toy.variants.clear();
   for (const char* mode :
-       {"good", "throws", "odd", "bad_data", "memory", "missing", "size", "twice", "moody"}) {
+       {"good", "throws", "odd", "bad_data", "memory", "missing", "size", "twice"}) {
     MethodEntry one = toy;
     one.name = mode;
     one.variants = {{"v", "", true, {}}};
@@ -190,36 +188,10 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE(
-    "A repeat with another answer fails its cell, until the method is run again and does well") {
-  const test::TemporaryFolder folder;
-  const auto out = folder.path() / "run";
-  Suite suite = two_scans_with({"moody"});
-  suite.repeats = 3;
-  toy_runs = 0;
-  moody_run = 2;
-  const RunSummary failed = run_suite(suite, {.out = out});
-  REQUIRE(failed.failures.size() == 1);
-  CHECK_THAT(failed.failures[0],
-             Contains("repeat 2: it removed other points than in the first run"));
-  const Cell cell = read_cell(out / "cells/street/moody-v/cell.json");
-  CHECK(cell.status == CellStatus::kFailed);
-  // A failed cell has no figures, neither of its own nor in any table.
-  CHECK(cell.scores.empty());
-  CHECK_FALSE(cell.columns);
-  CHECK_THAT(read_text(out / "results.csv"), Contains("street,moody,v,erasor,failed,,,"));
-  // Nothing of the odd repeat is left.
-  CHECK(run_suite(suite, {.out = out}).good());
-  CHECK(cell_of(out, "moody-v")["status"] == "ok");
-  CHECK(toy_runs == 2 + 3);
-}
-
 TEST_CASE("A method or a sequence that is added to a run folder leaves the others in its tables") {
   const test::TemporaryFolder folder;
   const auto& out = folder.path();
-  Suite twice = two_scans_called("a", "good");
-  twice.repeats = 2;
-  run_suite(twice, {.out = out});
+  run_suite(two_scans_called("a", "good"), {.out = out});
   toy_runs = 0;
   const RunSummary added = run_suite(two_scans_called("a", "throws"), {.out = out});
   CHECK(toy_runs == 1);
@@ -227,8 +199,6 @@ TEST_CASE("A method or a sequence that is added to a run folder leaves the other
   CHECK(added.reused == 3);  // The controls.
   CHECK(added.earlier == 1);
   CHECK(cells_in(out) == Names{"a/good:v", "a/throws:v"});
-  const ordered_json good = read_sealed(out / "results.json")["cells"][3];
-  CHECK(good["measured"]["repeats"].size() == 2);  // As in the tables of the run that made it.
 
   run_suite(two_scans_called("b", "good"), {.out = out});
   CHECK(cells_in(out) == Names{"a/good:v", "a/throws:v", "b/good:v"});

@@ -25,7 +25,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// Street's first scans with a method, by two protocols.
-Suite small_suite(const char* frames, int repeats = 1) {
+Suite small_suite(const char* frames) {
   Suite suite;
   for (const char* name : {"first", "second"}) {
     SequenceOptions options;
@@ -38,7 +38,6 @@ Suite small_suite(const char* frames, int repeats = 1) {
   add_protocol(suite, "erasor", "");
   add_protocol(suite, "dynamicmap", "");
   add_controls(suite, kept);
-  suite.repeats = repeats;
   return suite;
 }
 
@@ -90,7 +89,7 @@ TEST_CASE("After an error nothing more is begun, and the error of the lowest is 
 TEST_CASE("Cells that run at once have the same results in the same order, and marked times") {
   const test::TemporaryFolder folder;
   const auto alone = folder.path() / "alone", beside = folder.path() / "beside";
-  const Suite suite = small_suite("0:1", 2);
+  const Suite suite = small_suite("0:1");
   CHECK(run_suite(suite, {.out = alone}).good());
   const RunSummary summary = run_suite(suite, {.out = beside, .jobs = 3});
   CHECK(summary.good());
@@ -103,7 +102,6 @@ TEST_CASE("Cells that run at once have the same results in the same order, and m
     CHECK(found[i].measured->side_by_side == 3);
     CHECK(found[i].measured->threads == 1);
     CHECK_FALSE(expected[i].measured->side_by_side);
-    CHECK(found[i].measured->repeats.size() == (found[i].method.control ? 0 : 2));
     found[i].measured.reset();
     expected[i].measured.reset();
     CHECK(json_text(to_json(found[i])) == json_text(to_json(expected[i])));
@@ -116,7 +114,7 @@ TEST_CASE("A run with jobs goes on where one without has stopped, and the other 
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "run";
   RunOptions first{.out = out};
-  first.selection.only = {"first/*"};
+  first.only = {"first/*"};
   CHECK(run_suite(small_suite("0:0"), first).cells == 4);
   const RunSummary second = run_suite(small_suite("0:0"), {.out = out, .jobs = 2});
   CHECK(second.reused == 4);

@@ -100,7 +100,7 @@ TEST_CASE("A protocol of one's own is in every output", "[slow]") {
                            "trails,seconds_per_scan"));
   CHECK_THAT(csv, Contains("street,thin,v,toy,ok,,,,,,,,,,,0.1"));
 
-  // Tables: the fewest mistakes are the best, also in the sweep and in the ranking.
+  // Tables: the fewest mistakes are the best, also in the sweep.
   const std::string tables = read_text(out / "table.md");
   std::string words = tables;  // Notes are broken into lines.
   std::replace(words.begin(), words.end(), '\n', ' ');
@@ -109,7 +109,6 @@ TEST_CASE("A protocol of one's own is in every output", "[slow]") {
                         Contains("mistakes counts left and lost points together."));
   CHECK_THAT(part_from(tables, "## Sweep of swept over step by protocol toy"),
              Contains("step=20") && Contains("**0.0"));
-  CHECK_THAT(part_from(tables, "## Ranking by protocol"), Contains("toy mistakes"));
   CHECK_THAT(read_text(out / "table.tex"), Contains("mistakes"));
   RunResults results = shown_results(record);
   CHECK_THAT(tables_latex(make_tables(results)), Contains("mistakes") && Contains("\\textbf{0."));

@@ -61,8 +61,6 @@ TEST_CASE("A cell that cannot be read is no missing one, and none to run again",
   make_unreadable(stored.store.folder(kTown) / "removals/000007.label");
   CHECK_THROWS_AS(stored.store.find(kTown, stored.identity, &scans), UnreadableError);
   CHECK(stored.store.find(kTown, stored.identity, nullptr).state == StoredCell::State::kFresh);
-  make_unreadable(stored.store.folder(kTown) / "timing-2.json");
-  CHECK_THROWS_AS(stored.store.find_repeat(kTown, 2, "key"), UnreadableError);
   make_unreadable(stored.store.folder(kTown) / "cell.json");
   CHECK_THROWS_AS(stored.store.has_result(kTown), UnreadableError);
 }
@@ -91,6 +89,6 @@ TEST_CASE("The record and the cells of a folder that cannot be read are no damag
     CHECK_THROWS_AS(prepare_run_folder(stored.folder.path()), UnreadableError);
   }
   REQUIRE(read_earlier_cells(stored.store, run, RunRecord{}).kept.size() == 1);
-  make_unreadable(stored.store.folder(kTown) / "timing-2.json");
+  make_unreadable(stored.store.folder(kTown) / "cell.json");
   CHECK_THROWS_AS(read_earlier_cells(stored.store, run, RunRecord{}), UnreadableError);
 }

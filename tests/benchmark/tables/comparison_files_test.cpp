@@ -2,11 +2,9 @@
 #include "benchmark/tables/comparison_files.h"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 using namespace raymoval;
 using Catch::Matchers::Contains;
-using nlohmann::json;
 
 namespace {
 
@@ -26,7 +24,7 @@ ComparedCell cell(const std::string& sequence, const std::string& name, double f
 }
 
 ComparisonSubject subject() {
-  return {"out/new", "out/old", {}};
+  return {"out/new", "out/old"};
 }
 
 /// One of each: the same, better, worse, not comparable, missing in the run, only in the run.
@@ -89,27 +87,6 @@ TEST_CASE("Times beyond their band are test cases that fail") {
   const Comparison comparison = compare_results({{after}, {}}, {{before}, {}}, options);
   CHECK_THAT(comparison_in("junit", comparison, subject()),
              Contains("name=\"m:v, time\">") && Contains("<failure type=\"worse\" message=\"4.00"));
-  const json times = json::parse(comparison_in("json", comparison, subject()))["times"];
-  CHECK(times[0]["ratio"] == 4.0);
-  CHECK(times[0]["verdict"] == "worse");
-}
-
-TEST_CASE("A comparison as JSON says what it was judged by, and each rate on both sides") {
-  ComparisonSubject what = subject();
-  what.options.tolerances = {{"F1", 0.2}};
-  ComparedCell after = cell("s", "m:v", 0.4);
-  const Comparison comparison =
-      compare_results({{after}, {}}, {{cell("s", "m:v", 0.5)}, {}}, what.options);
-  const json record = json::parse(comparison_in("json", comparison, what));
-  CHECK(record["verdict"] == "no regression");
-  CHECK(record["exit_code"] == 0);
-  CHECK(record["options"]["tolerances"]["F1"] == 0.2);
-  const json& score = record["scores"].at(0);
-  CHECK(score["verdict"] == "moved");
-  CHECK(score["rates"].at(0)["reference"] == 0.5);
-  CHECK(score["rates"].at(0)["run"] == 0.4);
-  CHECK(score["rates"].at(0)["tolerance"] == 0.2);
-  CHECK(score["counts"].at(0)["reference"] == 500);
 }
 
 TEST_CASE("A comparison as Markdown has a row for each score that is not the same") {

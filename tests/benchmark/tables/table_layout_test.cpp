@@ -33,7 +33,7 @@ RunResults three_by_two() {
                    timed_cell("town", "y", 50, 50, 0.5, 0.003),
                    timed_cell("kitti-05", "z", 99, 20, 0.3328, 0.5),
                    failed_cell("town", "z", "did not finish within 600 s")};
-  results.times = {{"x", 100, 0.2, 0.0, {}, 1, 1}, {"y", 100, 0.2, 0.0, {}, 1, 1}};
+  results.times = {{"x", 100, 0.2, 0.0, {}}, {"y", 100, 0.2, 0.0, {}}};
   return results;
 }
 
@@ -125,32 +125,6 @@ TEST_CASE("Rates, decimals and order are as asked for") {
   CHECK_THROWS_WITH(check_rates(options, three_by_two()), Contains("--rates PRR"));
   CHECK_THROWS_WITH(parse_decimals("F1=x", options), Contains("--decimals F1=x"));
   CHECK_THROWS_WITH(parse_decimals("10", options), Contains("0 to 9"));
-}
-
-TEST_CASE("Methods and sequences have the names that a user gives them") {
-  RunResults results = three_by_two();
-  DisplayNames names;
-  parse_display_names("x=Ours & better", results, names);
-  const test::TemporaryFolder folder;
-  write_atomically(folder.path() / "names.txt", "# of the paper\ntown=Town\r\n\nother=Another\n");
-  parse_display_names((folder.path() / "names.txt").string(), results, names);
-  CHECK_THROWS_WITH(parse_display_names("xx=a", results, names), Contains("Did you mean 'x'"));
-  CHECK_THROWS_WITH(parse_display_names("x=", results, names), Contains("NAME=SHOWN"));
-  std::vector<OutsideColumn> outside;
-  apply_display_names(names, results, outside);
-  const std::vector<TextTable> tables = make_tables(results);
-  CHECK(labels_of(tables[0], "Town") == std::vector<std::string>{"Ours & better", "y", "z"});
-  CHECK_THAT(tables_latex(tables), Contains("\nOurs \\& better & "));
-  names = {{"y", "z"}};
-  CHECK_THROWS_WITH(apply_display_names(names, results, outside), Contains("called 'z'"));
-}
-
-TEST_CASE("A point of a sweep has an '=' in its name, and can have another one") {
-  RunResults results = three_by_two();
-  results.methods[0] = "x:size=1";
-  DisplayNames names;
-  parse_display_names("x:size=1=small", results, names);
-  CHECK(names == DisplayNames{{"x:size=1", "small"}});
 }
 
 TEST_CASE("Chosen cells leave their sequences and methods only") {

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/cloud_header.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -28,12 +27,6 @@ std::string ply_says(const std::string& text) {
   return message_of<DataError>([&] { ply(text); });
 }
 
-const std::string kTypes = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
-
-std::string sized(const std::string& width, const std::string& height) {
-  return kTypes + "WIDTH " + width + "\nHEIGHT " + height + "\nDATA ascii\n";
-}
-
 std::string ply_of(const std::string& lines) {
   return "ply\nformat ascii 1.0\n" + lines +
          "property float x\nproperty float y\nproperty float z\nend_header\n";
@@ -52,60 +45,6 @@ TEST_CASE("a PCD header needs no COUNT, no POINTS and no VIEWPOINT", "[header]")
   CHECK_FALSE(header.big_endian);
   CHECK(header.points_end_the_file);
   CHECK_FALSE(header.viewpoint);
-}
-
-TEST_CASE("a PCD header has all seven numbers of its viewpoint", "[header]") {
-  const CloudHeader header = pcd("VIEWPOINT 1 2 3 4 5 6 7\n" + sized("0", "1"));
-  REQUIRE(header.viewpoint);
-  for (int i = 0; i < 7; ++i) CHECK((*header.viewpoint)[i] == i + 1);
-  check_says(pcd_says("VIEWPOINT a 2 3 4 5 6 7\n" + sized("0", "1")), {"VIEWPOINT value 1, 'a'"});
-}
-
-TEST_CASE("counts of a PCD header end where 32 bits do", "[header]") {
-  CHECK(pcd(sized("4294967295", "1")).points == 4294967295U);
-  CHECK(pcd(sized("0", "0")).points == 0);
-  check_says(pcd_says(sized("4294967296", "1")), {"'4294967296' is not a number that is valid"});
-  check_says(pcd_says(sized("65536", "65536")), {"4,294,967,296 points of 12 bytes"});
-  check_says(pcd_says(sized("-1", "1")), {"'-1'"});
-  CHECK(ply(ply_of("element vertex 4294967295\n")).points == 4294967295U);
-  CHECK(ply(ply_of("element vertex 0\n")).points == 0);
-  check_says(ply_says(ply_of("element vertex 4294967296\n")), {"header line 3", "'4294967296'"});
-}
-
-TEST_CASE("a field has at most 65,536 values, and a point at most a megabyte", "[header]") {
-  const auto with_counts = [](const std::string& last) {
-    return "FIELDS x y z a b c\nSIZE 4 4 4 8 4 4\nTYPE F F F F F F\nCOUNT 1 1 1 65536 65536 " +
-           last + "\nWIDTH 0\nHEIGHT 1\nDATA binary\n";
-  };
-  // 12 + 8 * 65536 + 4 * 65536 + 4 * 65533 = 2^20.
-  CHECK(pcd(with_counts("65533")).row_bytes() == 1 << 20);
-  check_says(pcd_says(with_counts("65534")), {"0 points of 1,048,580 bytes"});
-  check_says(pcd_says(with_counts("65537")), {"'65537' is not a number that is valid"});
-  check_says(pcd_says(with_counts("-1")), {"'-1' is not a number that is valid"});
-  // A field of no values takes no bytes.
-  CHECK(pcd(with_counts("0")).fields.size() == 5);
-  CHECK(pcd(with_counts("0")).row_bytes() == 12 + 12 * 65536);
-}
-
-TEST_CASE("a header line has at most 65,536 bytes, however long the header is", "[header]") {
-  const std::string line = "#" + std::string(65535, 'c');
-  CHECK(pcd(line + "\n" + line + "\n" + sized("1", "1")).points == 1);
-  check_says(pcd_says(line + "c\n" + sized("1", "1")), {"header does not end"});
-  check_says(pcd_says(sized("1", "1").substr(0, 40)), {"header does not end", "'DATA'"});
-}
-
-TEST_CASE("a viewpoint is looked for in the first 65,536 bytes", "[header]") {
-  const TemporaryFolder folder;
-  const std::string rest = "VIEWPOINT 1 2 3 1 0 0 0\n" + sized("0", "1");
-  const std::string fill = "#" + std::string(30000, 'c') + "\n";
-  const auto of_bytes = [&](std::size_t bytes) {
-    return fill + "#" + std::string(bytes - fill.size() - rest.size() - 2, 'c') + "\n" + rest;
-  };
-  REQUIRE(of_bytes(65536).size() == 65536);
-  const Pose pose = read_viewpoint(folder.write("a.pcd", of_bytes(65536)));
-  CHECK(pose.translation() == Eigen::Vector3d(1, 2, 3));
-  const auto longer = folder.write("b.pcd", of_bytes(65537));
-  check_says(message_of<DataError>([&] { read_viewpoint(longer); }), {"header does not end"});
 }
 
 TEST_CASE("types of PCD fields that cannot be are named", "[header]") {
@@ -127,12 +66,6 @@ TEST_CASE("types of PCD fields that cannot be are named", "[header]") {
   check_says(pcd_says("SIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n"),
              {"no FIELDS entry"});
   check_says(pcd_says("WIDTH 1\nHEIGHT 1\nDATA ascii\n"), {"no FIELDS entry"});
-}
-
-TEST_CASE("what is no entry of a header is told with its first 40 letters", "[header]") {
-  const std::string name(40, 'Q');
-  check_says(pcd_says(name + "R 1\n" + sized("1", "1")), {"header line 1: '" + name + "' is no"});
-  check_says(ply_says(ply_of(name + "R 1\n")), {"header line 3: '" + name + "' is no"});
 }
 
 TEST_CASE("each type of a PLY property has its size and sign under both names", "[header]") {

@@ -78,24 +78,6 @@ TEST_CASE("scenes are told from folders", "[layouts]") {
   CHECK_NOTHROW(check_not_both(drive));
 }
 
-TEST_CASE("the own vehicle is left out of what is opened, and of nothing else", "[layouts]") {
-  const TemporaryFolder folder;
-  folder.write("0.bin", floats({1, 0, 0, 0, 9, 0, 0, 0}));
-  folder.write("poses.txt", kIdentityRow);
-  SequenceOptions options;
-  const Sequence whole = open_sequence(folder.text(), options);
-  CHECK(whole.opened == whole.scans);
-  CHECK(whole.scans->load(0).size() == 2);
-  CHECK(ego_free_source(whole) == nullptr);
-  CHECK(file_source(whole) != nullptr);
-  options.drop_ego = parse_ego_region("1.5");
-  const Sequence less = open_sequence(folder.text(), options);
-  CHECK(less.opened == less.scans);
-  CHECK(less.scans->load(0).size() == 1);
-  CHECK(ego_free_source(less) != nullptr);
-  CHECK(file_source(less) != nullptr);
-}
-
 TEST_CASE("a layout of a test is asked after scenes and before folders", "[layouts]") {
   Layout mine;
   mine.name = "files";

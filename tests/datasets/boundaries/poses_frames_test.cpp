@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "datasets/clouds/poses.h"
 #include "datasets/trajectories/pose_file.h"
-#include "datasets/trajectories/stamps.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -58,27 +57,10 @@ TEST_CASE("times of poses are finite, and poses of one time are near each other"
   check_says(tum_says("0 0 0 0 nan 0 0 1\n"), {"line 1: the pose holds a number that is not"});
 }
 
-TEST_CASE("rows of a pose file are all of one kind", "[poses]") {
-  check_says(tum_says(kIdentityRow + "1 0 0 0 0 0 0 1\n"), {"line 2", "expected 12 as in"});
-  check_says(tum_says("1 0 0 0 0 0 0 1\n" + kIdentityRow), {"line 2", "expected 8 as in"});
-}
-
 TEST_CASE("a calibration row needs a colon and no blank behind it", "[poses]") {
   const TemporaryFolder folder;
   const auto path =
       folder.write("calib.txt", "Tr of this drive\n: 1\nLeft Tr: 1\nTr:1 0 0 4 0 1 0 5 0 0 1 6\n");
   CHECK(read_calibration(path, "Tr").translation() == Eigen::Vector3d(4, 5, 6));
   CHECK(read_calibration(path, "Tr").linear() == Eigen::Matrix3d::Identity());
-}
-
-TEST_CASE("a column of numbers is finite and may begin with a carriage return", "[poses]") {
-  const TemporaryFolder folder;
-  const StampColumn column = read_stamp_file(folder.write("t.txt", "\r12\n# none\n34\r\n"));
-  CHECK(column.stamps == std::vector<Nanoseconds>{12'000'000'000, 34'000'000'000});
-  CHECK(column.since_first == std::vector<double>{0, 22});
-  for (const char* text : {"1\nnan\n", "1\ninf\n", "1\n2 3\n"}) {
-    const auto path = folder.write("t.txt", text);
-    check_says(message_of<DataError>([&] { read_stamp_file(path); }),
-               {"line 2", "expected a time"});
-  }
 }

@@ -3,9 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/layouts.h"
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -27,15 +25,6 @@ std::string settings_error(const std::string& settings) {
 }
 
 }  // namespace
-
-TEST_CASE("a range in sequence.json may lie within the first metre", "[settings]") {
-  const TemporaryFolder folder;
-  write_two(folder, R"({"range_m": {"min": 0.5, "max": 0.75}})");
-  const Sequence sequence = open_sequence(folder.text(), {});
-  CHECK(sequence.range_m.min == 0.5);
-  CHECK(sequence.range_m.max == 0.75);
-  CHECK(sequence.label_rule.class_names == layout_of(sequence).class_names);
-}
 
 TEST_CASE("settings of a wrong kind are told", "[settings]") {
   check_says(settings_error(R"({"sensor": "estimate"})"), {"Did you mean 'estimated'?"});
@@ -59,31 +48,6 @@ TEST_CASE("a unit of time that does not exist is refused also where nothing is d
     options.point_time_unit = unit;
     CHECK(open_sequence(folder.text(), options).point_time_unit == unit);
   }
-}
-
-TEST_CASE("frames of a sequence begin at its first scan and turn up to z", "[layouts]") {
-  const TemporaryFolder folder;
-  write_two(folder);
-  SequenceOptions options;
-  options.up = "-y";
-  const Sequence sequence = open_sequence(folder.text(), options);
-  CHECK((sequence.method_frame() * Eigen::Vector3d(5, 6, 7)).norm() < 1e-12);
-  CHECK((sequence.method_frame() * Eigen::Vector3d(5, 5, 7) - Eigen::Vector3d(0, 0, 1)).norm() <
-        1e-12);
-  CHECK((sequence.upright_frame() * Eigen::Vector3d(0, -2, 0) - Eigen::Vector3d(0, 0, 2)).norm() <
-        1e-12);
-}
-
-TEST_CASE("the files of a sequence are found behind what passes scans on", "[layouts]") {
-  const TemporaryFolder folder;
-  write_two(folder, R"({"drop_ego": 0.5})");
-  const WatchedSequence data = watched(open_sequence(folder.text(), {}));
-  CHECK(file_source(data.sequence) != nullptr);
-  CHECK(ego_free_source(data.sequence) != nullptr);
-  Sequence alone = open_sequence(folder.text(), {});
-  alone.opened = nullptr;
-  CHECK(file_source(alone) != nullptr);
-  CHECK(ego_free_source(alone) != nullptr);
 }
 
 TEST_CASE("a label rule as an option makes labels of intensities", "[dynamicmap]") {

@@ -59,10 +59,10 @@ TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
     made.bytes.insert(made.bytes.end(), raw, raw + sizeof intensity);
     made.width = made.size();
   };
-  add(691000.25, 5336000.5, -3, 1, 0.5F);
-  add(691001.25, 5336001.5, 4, 2, 0.25F);
-  add(691000.5, 5336000.75, 0, 2, 2.0F);
-  write_records(folder / "a.las", made, {.intensity_scale = 100});
+  add(691000.25, 5336000.5, -3, 1, 50.4F);
+  add(691001.25, 5336001.5, 4, 2, 24.75F);
+  add(691000.5, 5336000.75, 0, 2, 2e5F);
+  write_records(folder / "a.las", made);
   const std::string bytes = read_text(folder / "a.las");
   const auto number = [&](std::size_t at, auto zero) {
     std::memcpy(&zero, bytes.data() + at, sizeof zero);
@@ -82,8 +82,8 @@ TEST_CASE("LAS that is written says counts, bounds and offsets", "[las]") {
   CHECK(std::abs(number(211, 0.0) - 4) < 1e-9);
   CHECK(std::abs(number(219, 0.0) + 3) < 1e-9);
   const PointRecords las = read_records(folder / "a.las");
-  CHECK(column(las, "intensity") == std::vector<double>{50, 25, 200});
-  CHECK(column(las, "intensity_1") == std::vector<double>{0.5, 0.25, 2});
+  CHECK(column(las, "intensity") == std::vector<double>{50, 25, 65535});
+  CHECK(column(las, "intensity_1") == std::vector<double>{50.4F, 24.75, 2e5});
   CHECK(column(las, "y") == column(made, "y"));
   // What is written of a LAS file keeps its scale.
   write_records(folder / "b.las", las);

@@ -3,12 +3,10 @@
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "core/error.h"
 #include "core/files/files.h"
 #include "datasets/clouds/cloud_file.h"
-#include "datasets/clouds/format/gzip.h"
 #include "tests/datasets/clouds/record_files.h"
 
 using namespace raymoval;
@@ -33,10 +31,10 @@ std::string npy_error(const std::string& content, const std::string& name = "a.n
   return message_of<DataError>([&] { read_records(path); });
 }
 
-/// `bytes` in the form of deflate; with `bits` 31, of gzip.
-std::string deflated(const std::string& bytes, int bits = -15) {
+/// `bytes` in the form of deflate.
+std::string deflated(const std::string& bytes) {
   z_stream stream{};
-  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, bits, 8, Z_DEFAULT_STRATEGY) == Z_OK);
+  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) == Z_OK);
   std::string packed(bytes.size() + 1000, '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
@@ -242,42 +240,4 @@ TEST_CASE("a member of an archive that is too large for its bytes is not unpacke
   const std::size_t directory = lies.find("PK\x01\x02");
   lies.replace(directory + 24, 4, raw(0x7FFFFFFFU));
   check_says(npy_error(lies, "a.npz"), {"decompresses to more than", "1,000 times"});
-}
-
-TEST_CASE("files of every format may be packed with gzip", "[gzip]") {
-  const TemporaryFolder folder;
-  const std::string pcd =
-      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n1 2 3\n4 5 6\n";
-  const std::string packed = deflated(pcd, 31);
-  CHECK(read_cloud(folder.write("a.pcd.gz", packed)).points[1] == Eigen::Vector3f(4, 5, 6));
-  CHECK(read_records(folder.write("a.npy.gz", deflated(kTwoPoints, 31))).size() == 2);
-  CHECK(read_records(folder.write("a.bin.gz", deflated(floats({1, 2, 3, 4}), 31))).size() == 1);
-  // Two members after one another, and zeros behind them.
-  const std::string halves = deflated(pcd.substr(0, 40), 31) + deflated(pcd.substr(40), 31);
-  CHECK(read_cloud(folder.write("b.pcd.gz", halves + std::string(9, '\0'))).points.size() == 2);
-  CHECK(cloud_stem("folder/scan.1.pcd.gz") == "scan.1");
-
-  const auto error = [&](const std::string& content) {
-    const auto path = folder.write("c.pcd.gz", content);
-    return message_of<DataError>([&] { read_cloud(path); });
-  };
-  for (std::size_t i = 0; i < packed.size(); ++i) {
-    check_says(error(packed.substr(0, i)), {"c.pcd.gz", "truncated"});
-  }
-  std::string flipped = packed;
-  flipped[packed.size() - 6] ^= 1;  // In the checksum.
-  check_says(error(flipped), {"damaged"});
-  check_says(error(packed + "more"), {"4 bytes follow"});
-  check_says(error(pcd), {"damaged"});
-}
-
-TEST_CASE("a gzip file may give a thousand times its bytes and a MiB", "[gzip]") {
-  // Deflate reaches 1,032 times.
-  const std::string small = deflated(std::string(1 << 20, '\0'), 31);
-  CHECK(decompress_gzip(small, "a").size() == 1 << 20);
-  constexpr std::size_t kMany = 44 << 20;
-  const std::string large = deflated(std::string(kMany, '\0'), 31);
-  REQUIRE(large.size() * 1000 + (1 << 20) < kMany);
-  check_says(message_of<DataError>([&] { decompress_gzip(large, "a.gz"); }),
-             {"a.gz: decompresses to more than", "1,000 times"});
 }

@@ -13,9 +13,8 @@
 
 namespace raymoval::test {
 
-inline void write_records(const std::filesystem::path& path, const PointRecords& records,
-                          const RecordWriting& writing = {}) {
-  PointRecordWriter writer(path, writing);
+inline void write_records(const std::filesystem::path& path, const PointRecords& records) {
+  PointRecordWriter writer(path);
   writer.start(records.layout);
   writer.add(records);
   writer.finish();

@@ -62,22 +62,6 @@ int removed_of(const toy::HeldScans& scans, std::size_t first_points,
   return removed;
 }
 
-ColumnMap map_of(const Parameters& parameters, const toy::HeldScans& scans) {
-  const Lattice lattice(parameters);
-  LowestPoints lowest;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    add_lowest(lowest_points(scans.load(i), lattice), lowest);
-  }
-  ColumnMap map(parameters, lattice, lowest);
-  std::vector<PlacedPoint> placed;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    map.place(scans.load(i), placed);
-    map.add(placed);
-  }
-  map.finish();
-  return map;
-}
-
 }  // namespace
 
 TEST_CASE("beautymap: what stood in a column that a scan sees empty goes, but for its ground") {
@@ -89,20 +73,6 @@ TEST_CASE("beautymap: what stood in a column that a scan sees empty goes, but fo
     const MaskStore masks = toy::masks_of(*make_beautymap(parameters), scans);
     CHECK(masks.removed_count() == 5);
   }
-}
-
-TEST_CASE("beautymap: of the slice below, what is above the ground goes as well") {
-  // 17 of 20 points are ground, 85 %: the parts of 0.1 m above the part that reaches this share are
-  // removed.
-  std::vector<Eigen::Vector3d> person;
-  stand(person, 8, 3, {0.22, 0.32, 0.41, 0.6, 1.1});
-  for (int i = 0; i < 15; ++i) stand(person, 8, 3, {0.02});
-  // Both scans' 0.01 m count, too: 17 + 3 points.
-  const toy::HeldScans scans = with_and_without(person);
-  CHECK(removed_of(scans, 5, sound()) == 5);
-  // With a point more above, the lowest of them is needed to reach the share, and stays.
-  stand(person, 8, 3, {0.42});
-  CHECK(removed_of(with_and_without(person), 3, sound()) == 2);
 }
 
 TEST_CASE("beautymap: what a scan cannot see stays") {
@@ -161,72 +131,6 @@ TEST_CASE("beautymap: what a scan cannot see stays") {
     CHECK(masks.get(0)[0] == 1);
     CHECK(masks.get(0)[1] == 0);
   }
-}
-
-TEST_CASE("beautymap: far columns are judged only where the scan has their ground") {
-  std::vector<Eigen::Vector3d> person;
-  stand(person, 16, 0, {0.6, 1.1});
-  std::vector<Eigen::Vector3d> full = ground(), empty;
-  full.insert(full.begin(), person.begin(), person.end());
-  for (const Eigen::Vector3d& point : ground()) {
-    if (point.head<2>() != Eigen::Vector2d(16.5, 0.5)) empty.push_back(point);
-  }
-  add_mast(full);
-  add_mast(empty);
-  toy::HeldScans scans;
-  scans.add_world(kSensor, full);
-  scans.add_world(kSensor, empty);
-  CHECK(removed_of(scans, 2, sound()) == 0);
-  Parameters far = sound();
-  far.sight_range = 17.0;
-  CHECK(removed_of(scans, 2, far) == 2);
-}
-
-TEST_CASE("beautymap: slices above a gap of a metre are no part of a column") {
-  toy::HeldScans scans;
-  std::vector<Eigen::Vector3d> points;
-  stand(points, 0, 0, {0.0, 0.6, 1.6, 3.1});  // Slices 0, 1, 3; 4 and 5 are empty; 6.
-  scans.add_world(kSensor, points);
-  const ColumnMap map = map_of(sound(), scans);
-  REQUIRE(map.columns().size() == 1);
-  CHECK(map.columns()[0].occupied == 0b1011);
-  CHECK(map.columns()[0].last_slice == 3);
-}
-
-TEST_CASE("beautymap: a lowest point far below those around is moved up") {
-  std::vector<Eigen::Vector3d> points = ground();
-  // The ground rises and falls by 2 cm, so that there is a deviation to measure by.
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i].z() += 0.02 * static_cast<double>(i % 3);
-  stand(points, 3, 4, {-2.0});
-  toy::HeldScans scans;
-  scans.add_world(kSensor, points);
-  for (const bool is_public : {true, false}) {
-    Parameters parameters = sound();
-    parameters.public_outliers = is_public;
-    const ColumnMap map = map_of(parameters, scans);
-    const Column& column = map.columns()[map.find({3, 4})];
-    CHECK(column.is_outlier);
-    CHECK(column.foot > -0.1);
-    // The corner has no neighbours with smaller x and y, and 35 of 120 others.
-    CHECK_FALSE(map.columns()[map.find({-20, -20})].is_outlier);
-  }
-}
-
-TEST_CASE("beautymap: of the slices above the 30th the public program knows the last only") {
-  std::vector<Eigen::Vector3d> tower;
-  for (int slice = 1; slice <= 33; ++slice) stand(tower, 8, 3, {0.5 * slice + 0.1});
-  std::vector<Eigen::Vector3d> empty = ground(), full = tower;
-  // A ray that rises steeply enough: 60 m at 6 m.
-  for (int i = 0; i < 120; ++i) empty.emplace_back(-5.5, 0.5, 0.2 + 0.5 * i);
-  full.insert(full.end(), empty.begin(), empty.end());
-  toy::HeldScans scans;
-  scans.add_world(kSensor, full);
-  scans.add_world(kSensor, empty);
-  CHECK(removed_of(scans, tower.size(), sound()) == 33);
-  Parameters top = sound();
-  top.public_top = true;
-  CHECK(removed_of(scans, tower.size(), top) == 30);  // Slices 30, 31 and 32 are overwritten.
 }
 
 TEST_CASE("beautymap: the fast way gives what the description says") {

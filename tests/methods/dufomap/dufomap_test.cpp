@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "methods/dufomap/dufomap.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/methods/dufomap/oracle.h"
@@ -67,13 +66,6 @@ TEST_CASE("online, later scans change nothing") {
   }
 }
 
-TEST_CASE("a void is never reset") {
-  toy::World world{toy::Scanner{-40, 40}};
-  world.scan({kWall}, Pose::Identity());
-  for (int i = 0; i < 6; ++i) world.scan({kWall, kBody}, Pose::Identity());  // Parked for good.
-  CHECK(toy::removed_share(world, run(world, {}, false), 1, 1, 6) == 1.0);
-}
-
 TEST_CASE("the hit extension stands range noise") {
   // The same wall 0.14 m apart: without d_s and d_p, the nearer wall is in the void of the other.
   toy::World world{toy::Scanner{-40, 40}};
@@ -85,38 +77,6 @@ TEST_CASE("the hit extension stands range noise") {
   bare.unknown_inflation = 0;
   CHECK(toy::removed_share(world, run(world, bare), 0, 0, 0) > 0.9);
   CHECK(toy::removed_share(world, run(world, bare), 0, 1, 1) == 0.0);
-}
-
-TEST_CASE("a lone beam makes no void") {
-  // Scan 0 sees voxel (20, 0, 0) by one beam, scan 1 has a point there.
-  toy::HeldScans scans;
-  scans.add_world(centre(0, 0, 0), {centre(40, 0, 0)});
-  scans.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
-  CHECK(run(scans).removed_count() == 0);
-  Parameters bare;
-  bare.unknown_inflation = 0;
-  const MaskStore masks = run(scans, bare);
-  CHECK(masks.get(0) == Mask{0});
-  CHECK(masks.get(1) == Mask{1});
-}
-
-TEST_CASE("neighbours must be free in one and the same scan") {
-  // 25 beams that fill a block of 5 x 5 voxels around (20, 0, 0), in one scan or half in each.
-  std::vector<Eigen::Vector3d> left, right, both;
-  for (int y = -10; y <= 10; ++y) {
-    for (int z = -10; z <= 10; ++z) {
-      (y < 0 ? left : right).push_back(centre(40, y, z));
-      both.push_back(centre(40, y, z));
-    }
-  }
-  toy::HeldScans halves, whole;
-  halves.add_world(centre(0, 0, 0), left);
-  halves.add_world(centre(0, 0, 0), right);
-  halves.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
-  whole.add_world(centre(0, 0, 0), both);
-  whole.add_world(centre(0, 0, 0), {centre(20, 0, 0)});
-  CHECK(run(halves).get(2) == Mask{0});
-  CHECK(run(whole).get(1) == Mask{1});
 }
 
 TEST_CASE("a larger d_p removes no point that a smaller one keeps") {
@@ -136,14 +96,6 @@ TEST_CASE("a larger d_p removes no point that a smaller one keeps") {
   }
   CHECK(more == 0);
   CHECK(fewer > 0);
-}
-
-TEST_CASE("a beam of no length is a hit and nothing else") {
-  Parameters parameters;
-  parameters.minimum_range = 0.0;
-  toy::HeldScans scans;
-  scans.add_world(centre(0, 0, 0), {centre(0, 0, 0)});
-  CHECK(run(scans, parameters).get(0) == Mask{0});
 }
 
 TEST_CASE("a point far out is refused, or cut by the maximum range") {

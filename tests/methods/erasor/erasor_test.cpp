@@ -79,13 +79,6 @@ TEST_CASE("a pole of which a far query sees only the ground is lost", "[erasor]"
   CHECK(removed_by(empty_road(), first, small_grid()) == Numbers{4, 5, 6, 7, 8, 9});
 }
 
-TEST_CASE("what the query sees in a bin that it clears comes back", "[erasor]") {
-  // Map to 2.9 m, query to 0.5 m: ratio 0.17. All points above the road are removed, 0.5 is added.
-  const Points query = road_and({0.5F});
-  const Points first = road_and({0.5F, 1.5F, 2.9F});
-  CHECK(removed_by(query, first, small_grid()) == Numbers{5, 6});
-}
-
 TEST_CASE("nothing beyond the range or the height window is touched", "[erasor]") {
   Parameters parameters = small_grid();
   parameters.maximum_range = 3.0;  // The car is at 3.09 m.
@@ -120,20 +113,6 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
   CHECK(removed_points(scans, small_grid())[0] == Numbers{4, 5, 6});
 }
 
-TEST_CASE("queries follow each other and the last word counts", "[erasor]") {
-  // The first query clears the bin of car A and of B, which the map of all scans has already. Then
-  // B drives by: the query is higher, and the map is not changed.
-  Points with_b = road();
-  for (const float z : {0.7F, 1.3F}) with_b.emplace_back(2.7F, 0.7F, z);
-  const HeldScans scans = scans_of({road_and(kCar), empty_road(), with_b});
-  Parameters parameters = small_grid();
-  parameters.removal_interval = 1;
-  parameters.phase = 1;
-  const auto removed = removed_points(scans, parameters);
-  CHECK(removed[0] == Numbers{4, 5, 6});
-  CHECK(removed[2] == Numbers{4, 5});
-}
-
 TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
   // After the first query the map has road from 0 to 0.1 m; then a low object of 0.3 m comes:
   // ratio 0.33, equal. Version 2 puts it back, version 3 leaves it out.
@@ -150,19 +129,6 @@ TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
   parameters.version = 2;
   CHECK(removed_points(scans, parameters)[2].empty());
   CHECK(removed_points(scans, parameters)[0] == Numbers{4, 5, 6});
-}
-
-TEST_CASE("only every n-th scan is a query", "[erasor]") {
-  HeldScans scans;
-  scans.add(empty_road());
-  for (int i = 0; i < 4; ++i) scans.add(road_and(kCar));
-  Parameters parameters = small_grid();
-  parameters.removal_interval = 3;  // Scan 2, which sees the car.
-  CHECK(removed_points(scans, parameters)[1].empty());
-  parameters.phase = 0;  // Scans 0 and 3.
-  CHECK(removed_points(scans, parameters)[1] == Numbers{4, 5, 6});
-  parameters.phase = 5;  // There is no such scan.
-  CHECK(removed_points(scans, parameters)[1].empty());
 }
 
 TEST_CASE("the own car's points answer through voxels that others filled", "[erasor]") {

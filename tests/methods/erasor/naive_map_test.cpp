@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "methods/erasor/naive_map.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -23,45 +22,6 @@ void add_scan(NaiveMapBuilder& builder, const std::vector<Eigen::Vector3d>& poin
 }
 
 }  // namespace
-
-TEST_CASE("a voxel's point is the mean of the scans' means", "[erasor]") {
-  NaiveMapBuilder builder;
-  // Three points at x = 0.01 in one scan, one at 0.05 in the next: mean 0.03, not 0.02.
-  add_scan(builder, {{0.01, 0.1, 0.1}, {0.01, 0.1, 0.1}, {5.1, 0.1, 0.1}, {0.01, 0.1, 0.1}});
-  add_scan(builder, {{0.05, 0.1, 0.1}});
-  const NaiveMap map = builder.finish();
-  REQUIRE(map.size() == 2);
-  const bool first = map.point(0).x() < 1.0;
-  CHECK(map.point(first ? 0 : 1).x() == Approx(0.03));
-  CHECK(map.point(first ? 1 : 0).x() == Approx(5.1));
-}
-
-TEST_CASE("points without a voxel are left out", "[erasor]") {
-  NaiveMapBuilder builder;
-  builder.add({NaiveMapBuilder::kNoVoxel, key_of({1, 1, 1})}, {{9, 9, 9}, {1, 1, 1}});
-  CHECK(builder.finish().size() == 1);
-  CHECK(NaiveMapBuilder{}.finish().size() == 0);
-}
-
-TEST_CASE("voxels go out and come back", "[erasor]") {
-  NaiveMapBuilder builder;
-  add_scan(builder, {{0.1, 0.1, 0.1}, {0.3, 0.1, 0.1}});
-  NaiveMap map = builder.finish();
-  const VoxelKey key = key_of(map.point(1));
-  CHECK(map.is_in(1));
-  CHECK_FALSE(map.is_out(key));
-  map.take_out(1);
-  CHECK_FALSE(map.is_in(1));
-  CHECK(map.is_out(key));
-  CHECK(map.is_in(0));
-  const Eigen::Vector3d point = map.point(1);
-  map.put_back(key_of({7, 7, 7}), {7, 7, 7});  // Nothing there: no effect.
-  CHECK_FALSE(map.is_in(1));
-  map.put_back(key, point);
-  map.put_back(key, point);
-  CHECK(map.is_in(1));
-  CHECK_FALSE(map.is_out(key));
-}
 
 TEST_CASE("a voxel that reaches over the edge of a tile comes back from either side", "[erasor]") {
   // Tiles end at 5 m, and a voxel of 0.3 m extends from 4.8 to 5.1 m along each axis.

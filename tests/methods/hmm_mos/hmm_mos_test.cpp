@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "methods/hmm_mos/moving_voxels.h"
 #include "tests/methods/hmm_mos/scenes.h"
 #include "tests/methods/moved_world.h"
 
@@ -115,6 +116,18 @@ TEST_CASE("a least range of hmm_mos that leaves nothing is refused", "[hmm_mos]"
   }
   parameters.max_range = 8.5;
   CHECK_NOTHROW(make_hmm_mos(parameters));
+}
+
+TEST_CASE("a bound too far for the distances is refused", "[hmm_mos]") {
+  Parameters parameters;
+  parameters.spread = 3.0;
+  CHECK_THROWS_AS(BeliefModel(parameters), ConfigurationError);
+}
+
+TEST_CASE("equal scores have no threshold", "[hmm_mos]") {
+  CHECK_FALSE(otsu_threshold({}, 100).has_value());
+  CHECK_FALSE(otsu_threshold({{0, 500}}, 100).has_value());
+  CHECK_FALSE(otsu_threshold({{6, 500}}, 100).has_value());
 }
 
 }  // namespace raymoval::hmm_mos_test

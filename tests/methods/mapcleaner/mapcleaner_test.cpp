@@ -164,37 +164,6 @@ TEST_CASE("mapcleaner: a sensor on a slope of 30 percent has a terrain") {
   CHECK(removed_of_last(scans, box.size(), here()) == 0);
 }
 
-TEST_CASE("mapcleaner: pixels and bins follow the steps of a sensor that has fewer directions") {
-  Parameters parameters;
-  const auto settings = [&](const char* name) {
-    return for_sensor(parameters, sensor_model_named(name));
-  };
-  CHECK(settings("vlp16").row_height == 0.4);
-  CHECK(settings("vlp16").bin_points == 10);
-  parameters.public_steps = false;
-  CHECK(settings("hdl64e").row_height == 0.4);
-  CHECK(settings("hdl64e").column_width == 0.16);
-  CHECK(settings("hdl64e").bin_points == 10);
-  CHECK(settings("hdl64e").lowest_points == 20);
-  // 2 degrees by 26.9 / 63 are 4.684, and 0.2 by 0.1728 are 1.157: of the points 0.1845 are left.
-  const Parameters sparse = settings("vlp16");
-  CHECK(sparse.row_height == Approx(2.0 / 3.0));  // Three rows span a step.
-  CHECK(sparse.column_width == 0.16);             // Five columns span 0.8 degrees.
-  CHECK(sparse.bin_points == 3);                  // 1.8, but three points span a plane.
-  CHECK(sparse.lowest_points == 4);
-  parameters.bin_points = 2;  // Asked for.
-  CHECK(settings("vlp16").bin_points == 2);
-  parameters.bin_points = 10;
-  // More beams, and columns twice as far apart.
-  CHECK(settings("os1-128").row_height == 0.4);
-  CHECK(settings("os1-128").column_width == 0.16);
-  CHECK(settings("os1-128").bin_points == 5);
-  parameters.window_rows = parameters.window_columns = 0;
-  CHECK(settings("os1-128").column_width == Approx(0.3516));
-  CHECK(settings("vlp16").row_height == Approx(2.0));
-  CHECK(for_sensor(parameters, SensorModel{}).bin_points == 10);  // Unknown.
-}
-
 TEST_CASE("mapcleaner: values that would silently leave no terrain are refused") {
   const MethodEntry entry = mapcleaner_entry();
   for (const auto& [name, value] :

@@ -48,40 +48,6 @@ HandScans seen(int first, int then) {
 
 }  // namespace
 
-TEST_CASE("within a scan a cell is hit once, and a hit beats any miss") {
-  HandMap map({});
-  map.insert({kA, kA, kW});
-  CHECK(map.log_odds(kA) == Approx(0.847298));  // 0.4418 without the subtraction.
-  CHECK(map.log_odds(kW) == Approx(0.847298));
-  CHECK(map.log_odds(at(0.1)) == Approx(-0.405465));  // The sensor's own cell; one miss for three.
-  CHECK(map.log_odds(at(1.9)) == Approx(-0.405465));
-  CHECK_FALSE(map.knows(at(2.3)));
-  Parameters kth;
-  kth.kth_nonexclusive = true;
-  CHECK(HandMap(kth).insert({kA, kW}).log_odds(kA) == Approx(0.847298 - 0.405465));
-}
-
-TEST_CASE("three misses outweigh a hit, two do not") {
-  HandMap map({});
-  map.insert({kA});
-  CHECK(map.insert({kW}).log_odds(kA) == Approx(0.441833));
-  CHECK(map.insert({kW}).log_odds(kA) == Approx(0.036368).epsilon(1e-3));
-  CHECK(map.insert({kW}).log_odds(kA) == Approx(-0.369097).epsilon(1e-3));
-  CHECK(masks(seen(1, 2)).removed_count() == 0);
-  const MaskStore three = masks(seen(1, 3));
-  CHECK(three.removed_count() == 1);
-  CHECK(three.get(0) == Mask{1});
-}
-
-TEST_CASE("a cell remembers nine scans") {
-  // 20 hits are clamped to 3.511; 8 misses leave 0.2673, 9 leave -0.1382.
-  CHECK(masks(seen(20, 8)).removed_count() == 0);
-  const MaskStore nine = masks(seen(20, 9));
-  CHECK(nine.removed_count() == 20);
-  CHECK(nine.get(19) == Mask{1});
-  CHECK(nine.get(20) == Mask{0});
-}
-
 TEST_CASE("what parks late is occupied from its third scan, and the order of scans matters") {
   const auto parked_for = [](int scans_at_a) {
     HandScans scans = seen(0, 20);
@@ -127,13 +93,6 @@ TEST_CASE("a point beyond the maximum range takes the state of its cell") {
   scans.add({kW});                                            // 2.0 m: cut.
   for (int i = 0; i < 3; ++i) scans.add({at(2.7)}, at(1.7));  // 1.0 m, through W.
   CHECK(masks(scans, parameters).get(0) == Mask{1});
-}
-
-TEST_CASE("an end in the sensor's own cell is a hit") {
-  HandMap map({});
-  map.insert({{0.15, 0.12, 0.05}});
-  CHECK(map.log_odds(at(0.1)) == Approx(0.847298));
-  CHECK(map.tree().getNumLeafNodes() == 1);
 }
 
 TEST_CASE("ground frees its beams and is not hit") {

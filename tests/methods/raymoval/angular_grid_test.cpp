@@ -4,8 +4,10 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/simd/instruction_set_scope.h"
 #include "methods/raymoval/kernels/voxel_runs.h"
+#include "methods/raymoval/scan_against_map.h"
 
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
@@ -114,6 +116,48 @@ TEST_CASE("points on borders of bins and elsewhere go where the formulas say, on
       REQUIRE(voxels[k] == voxel_index(scan.T_world_sensor * scan.points[k].cast<double>(), 5.0));
     }
   }
+}
+
+TEST_CASE("grids of the sensor's steps have as many bins as the steps need", "[raymoval]") {
+  Parameters parameters;
+  parameters.azimuth_bins = parameters.elevation_bins = 0;
+  parameters.elevation_margin = 0;
+  SensorModel sensor;
+  sensor.elevation_min = -0.3;
+  sensor.elevation_max = 0.1;
+  const auto grid = [&](double azimuth_bins, double elevation_bins) {
+    sensor.azimuth_step = kTurn / azimuth_bins;
+    sensor.elevation_step = 0.4 / elevation_bins;
+    const AngularGrid made = grid_for(sensor, parameters);
+    return std::pair(made.azimuth_bins, made.elevation_bins);
+  };
+  CHECK(grid(1000.5, 64.5) == std::pair(1001, 65));
+  CHECK(grid(35.5, 36.5) == std::pair(36, 37));
+  CHECK(grid(10, 10) == std::pair(36, 36));
+  CHECK(grid(1e6, 1e6) == std::pair(7200, 720));
+  sensor.azimuth_step = sensor.elevation_step = 0.0;  // Unknown.
+  CHECK(grid_for(sensor, parameters).azimuth_bins == 720);
+  CHECK(grid_for(sensor, parameters).elevation_bins == 450);
+}
+
+TEST_CASE("the rows reach beyond the sensor's view by the margin, and not beyond the poles",
+          "[raymoval]") {
+  constexpr double kHalfPi = 1.5707963267948966;
+  Parameters parameters;
+  parameters.elevation_margin = 9.0;  // A twentieth of pi.
+  SensorModel sensor;
+  sensor.elevation_min = -0.3;
+  sensor.elevation_max = 0.1;
+  CHECK(grid_for(sensor, parameters).elevation_min == Approx(-0.3 - kHalfPi / 10));
+  CHECK(grid_for(sensor, parameters).elevation_max == Approx(0.1 + kHalfPi / 10));
+  sensor.elevation_min = -1.5;
+  sensor.elevation_max = 1.45;
+  CHECK(grid_for(sensor, parameters).elevation_min == -kHalfPi);
+  CHECK(grid_for(sensor, parameters).elevation_max == kHalfPi);
+  // Given numbers of bins take precedence over the sensor's steps.
+  sensor.azimuth_step = sensor.elevation_step = 0.01;
+  parameters.azimuth_bins = parameters.elevation_bins = 1;
+  CHECK(grid_for(sensor, parameters).size() == 1);
 }
 
 }  // namespace raymoval::raymoval_test

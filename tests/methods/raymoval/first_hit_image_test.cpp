@@ -100,21 +100,6 @@ TEST_CASE("directions along the lattice meet what is straight ahead", "[simd]") 
   }
 }
 
-TEST_CASE("voxels within the minimum range stop no ray, the next voxel of the same block does") {
-  // A bar of voxels along x from 0 to 40 m, the sensor in its end. What counts is where a ray
-  // enters a voxel: at 2.7 m it is inside the voxel 2.6 .. 2.8 (sensor at 0.1), the next begins at
-  // 2.8, 2.7 m from the sensor; with 2.71 m it is the one after.
-  OccupancyMap map(0.2);
-  for (int x = 0; x < 200; ++x) map.insert({x, 0, 0});
-  const auto ahead = [&](double minimum) {
-    return look_ahead(map, pose_at(0.1, 0.1, 0.1), {minimum, 60.0}).range[1];
-  };
-  CHECK(ahead(0.0) == 0.0F);
-  CHECK(ahead(2.65) == Approx(2.7));
-  CHECK(ahead(2.75) == Approx(2.9));
-  CHECK(ahead(39.85) == kNoRange);  // The last voxel is entered at 39.7 m.
-}
-
 TEST_CASE("a sensor level with a layer of loose voxels sees them all around") {
   // Every second voxel of one layer from 3 m on, each of which the sensor's level plane cuts: many
   // more pieces than a map of walls has. Rays that look up pass over the layer, so that no brick is
@@ -135,33 +120,6 @@ TEST_CASE("a sensor level with a layer of loose voxels sees them all around") {
   CHECK(image.range.back() == kNoRange);
 }
 
-TEST_CASE("the outermost voxel of a brick is hit at the end of the range, whichever way it lies") {
-  // Voxels of 1 m, bricks of 8. Forward along an axis, the sensor is 0.9 m in its voxel and the ray
-  // hits voxel 8 after 7.1 m; backward it is 0.1 m in it and the ray hits voxel -9 after 8.1 m.
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int sign : {1, -1}) {
-      const double expected = sign > 0 ? 7.1 : 8.1;
-      VoxelIndex voxel(0, 0, 0);
-      voxel[axis] = sign > 0 ? 8 : -9;
-      OccupancyMap map(1.0);
-      map.insert(voxel);
-      Eigen::Vector3d ahead = Eigen::Vector3d::Zero();
-      ahead[axis] = sign;
-      Pose pose = Pose::Identity();
-      pose.linear() =
-          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), ahead).toRotationMatrix();
-      pose.translation().setConstant(0.5);
-      pose.translation()[axis] = sign > 0 ? 0.9 : 0.1;
-      const auto hit = [&](double maximum) {
-        return look_ahead(map, pose, {0.0, maximum}).range[1];
-      };
-      INFO(axis << ", " << sign);
-      CHECK(hit(expected + 0.05) == Approx(expected));
-      CHECK(hit(expected - 0.05) == kNoRange);
-    }
-  }
-}
-
 TEST_CASE("a sensor far off in a large map sees what is near it") {
   // Forty voxels all over the map, and one 5 m ahead of the sensor.
   for (const Eigen::Vector3d& at : {Eigen::Vector3d(-100.1, 100.1, 0.1), {100.1, -100.1, 0.1}}) {
@@ -170,15 +128,6 @@ TEST_CASE("a sensor far off in a large map sees what is near it") {
     map.insert(map.voxel_of(at + Eigen::Vector3d(5.2, 0, 0)));
     CHECK(look_ahead(map, pose_at(at.x(), at.y(), at.z()), {0.0, 10.0}).range[1] == Approx(5.1));
   }
-}
-
-TEST_CASE("a brick that holds no voxel yet stops no ray") {
-  OccupancyMap map(0.2);
-  map.insert({40, 0, 0});
-  map.make_brick({2, 0, 0});  // Between the sensor and the voxel.
-  const FirstHitImage image = look_ahead(map, pose_at(0.1, 0.1, 0.1), {0.0, 60.0});
-  CHECK(image.range[1] == Approx(7.9));
-  CHECK(image.range[0] == kNoRange);
 }
 
 TEST_CASE("nothing is hit beyond the maximum range, in an empty map, and where all was erased") {

@@ -50,49 +50,6 @@ TEST_CASE("boxes cover exactly the voxels of a brick") {
   }
 }
 
-TEST_CASE("a cover has one box where one is enough") {
-  CHECK(cover_of(Brick{}).empty());
-  Brick full;
-  full.occupied.fill(~std::uint64_t{0});
-  CHECK(cover_of(full).size() == 1);
-  // A floor one voxel thick, and a wall on it: two boxes.
-  Brick corner;
-  for (int x = 0; x < 8; ++x) {
-    for (int y = 0; y < 8; ++y) {
-      corner.occupied[static_cast<std::size_t>(x)] |= Brick::bit(y, 2);
-      corner.occupied[3] |= Brick::bit(y, x);
-    }
-  }
-  CHECK(cover_of(corner).size() == 2);
-  const BrickBox bounds = tight_box(corner);
-  CHECK(bounds.first(0) == 0);
-  CHECK(bounds.last(0) == 7);
-  CHECK(bounds.first(2) == 0);
-  CHECK(bounds.last(2) == 7);
-  Brick single;
-  single.occupied[5] = Brick::bit(6, 1);
-  CHECK(tight_box(single).packed == BrickBox::from({5, 6, 1}, {5, 6, 1}).packed);
-}
-
-TEST_CASE("the tight box of voxels reaches from the first to the last along each axis") {
-  const auto corner = [](int number) {
-    return std::array<int, 3>{number >> 6 & 7, number >> 3 & 7, number & 7};
-  };
-  for (int one = 0; one < 512; ++one) {
-    for (const int other : {one, one * 37 % 512, 511 - one}) {
-      const std::array<int, 3> a = corner(one), b = corner(other);
-      Brick brick;
-      brick.add(a[0], a[1], a[2]);
-      brick.add(b[0], b[1], b[2]);
-      const BrickBox box = tight_box(brick);
-      for (std::size_t k = 0; k < 3; ++k) {
-        REQUIRE(box.first(k) == std::min(a[k], b[k]));
-        REQUIRE(box.last(k) == std::max(a[k], b[k]));
-      }
-    }
-  }
-}
-
 TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
   Random random(8);
   OccupancyMap map(0.2);
@@ -164,25 +121,6 @@ TEST_CASE("a voxel nearby is found across the borders of bricks") {
     for_each_around(voxel, dilation, [&](const VoxelIndex& at) { expected |= map.contains(at); });
     REQUIRE(map.contains_near(voxel, dilation) == expected);
   }
-}
-
-TEST_CASE("every brick is in the tile it stands on, once") {
-  Random random(9);
-  OccupancyMap map(0.2);
-  random_map::fill(map, {-70, 130, 5}, 40, random);
-  map.update_boxes(1);
-  std::set<OccupancyMap::Slot> seen;
-  for (std::size_t i = 0; i < map.tile_count(); ++i) {
-    for (const auto& head : map.tile(i)) {
-      const Eigen::Vector3i at(head.at[0], head.at[1], head.at[2]);
-      const Eigen::Vector2i tile = OccupancyMap::tile_of(at);
-      CHECK(map.tile(tile.x(), tile.y()).data() == map.tile(i).data());
-      CHECK(map.find_slot(at) == head.slot);
-      CHECK(seen.insert(head.slot).second);
-    }
-  }
-  CHECK(seen.size() == map.brick_count());
-  CHECK(map.tile(1000, 1000).empty());
 }
 
 TEST_CASE("a map that fills and empties again and again does not grow") {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/clean/clean_outputs.h"
-#include "benchmark/clean/outputs/tile_sink.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "core/error.h"
 #include "core/files/file_kind.h"
-#include "core/files/files.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/las/las_head.h"
-#include "datasets/world_axes/up_direction.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -117,53 +111,6 @@ TEST_CASE("A map of nothing is a whole file without points") {
   }
 }
 
-TEST_CASE("Tiles are squares of the world, listed with their bounds") {
-  const TemporaryFolder folder;
-  CleanPaths paths;
-  paths.map = folder.path() / "tiles";
-  paths.tiled = true;
-  CleanWriting writing;
-  writing.tile_size = 5.0;
-  write(paths, four_points(), writing, {0, 0, 0, 0});
-  const auto manifest = nlohmann::json::parse(read_text(paths.map / "manifest.json"));
-  CHECK(manifest["points"] == 4);
-  CHECK(manifest["tile_size_m"] == 5.0);
-  REQUIRE(manifest["tiles"].size() == 3);  // x of -140; 10.1 and 10.3; 15.
-  CHECK(manifest["tiles"][0]["tile"] == std::vector<int>{-28, 0});
-  CHECK(manifest["tiles"][1]["file"] == "tile_2_0.pcd");
-  CHECK(manifest["tiles"][1]["points"] == 2);
-  CHECK(manifest["tiles"][1]["max"][0].get<double>() == Approx(10.3));
-  CHECK(column(read_records(paths.map / "tile_2_0.pcd"), "ring") == std::vector<double>{0, 1});
-  CHECK(column(read_records(paths.map / "tile_3_0.pcd"), "x") == std::vector<double>{15.0});
-  CHECK(entries_of(paths.map).size() == 4);
-}
-
-TEST_CASE("Rows of tiles wait in files where there are more than memory is given for") {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "tiles";
-  const RecordLayout layout = driver_layout();
-  TileSink sink(path, layout, {1.0, Pose::Identity(), ".pcd", {}, 3 * layout.row_bytes});
-  // Each call has a row for each of three tiles; every second call is beyond the three rows.
-  for (int call = 0; call < 5; ++call) {
-    ScanRows rows;
-    std::vector<std::vector<double>> values;
-    for (const double x : {0.5, 1.5, 2.5}) {
-      values.push_back({x, 0, 0, 0, static_cast<double>(call)});
-      rows.world.emplace_back(x, 0, 0);
-    }
-    rows.rows = records_of(layout, values);
-    sink.add(rows);
-  }
-  sink.finish();
-  Replacements all;
-  sink.commit_with(all);
-  all.commit();
-  for (const char* name : {"tile_0_0.pcd", "tile_1_0.pcd", "tile_2_0.pcd"}) {
-    CHECK(column(read_records(path / name), "ring") == std::vector<double>{0, 1, 2, 3, 4});
-  }
-  CHECK(entries_of(path).size() == 4);  // With the manifest, and without temporary files.
-}
-
 TEST_CASE("Maps of LAS scans keep their scale and reference system") {
   const TemporaryFolder folder;
   const RecordLayout layout = parse_point_layout("x:f8 y:f8 z:f8");
@@ -175,94 +122,20 @@ TEST_CASE("Maps of LAS scans keep their scale and reference system") {
   rows.las = std::make_shared<LasNotes>(notes);
   const auto scans = std::make_shared<RecordedScans>(
       std::vector{rows}, std::vector{Pose(Eigen::Translation3d(10.0, 0.0, 0.0))});
-  for (const char* kind : {"whole", "voxels", "tiles"}) {
+  for (const char* kind : {"whole", "voxels"}) {
     INFO(kind);
     CleanPaths paths;
-    paths.tiled = std::string(kind) == "tiles";
-    paths.map = folder.path() / (paths.tiled ? "tiles" : std::string(kind) + ".las");
+    paths.map = folder.path() / (std::string(kind) + ".las");
     CleanWriting writing;
-    writing.tile_size = 100.0;
-    writing.tile_extension = ".las";
     if (std::string(kind) == "voxels") writing.voxel_size = 0.05;
     write(paths, scans, writing, {0, 0});
-    const PointRecords map = read_records(paths.tiled ? entries_of(paths.map).at(1) : paths.map);
+    const PointRecords map = read_records(paths.map);
     REQUIRE(map.las != nullptr);
     CHECK(map.las->reference_system == notes.reference_system);
     // A grid of 0.1 um would end 215 m from its offset.
     CHECK(map.las->scale == Eigen::Vector3d(0.005, 0.005, 1e-4));
     CHECK(column(map, "x")[0] == Approx(10.125));
   }
-}
-
-TEST_CASE("Intensities that LAS shows as 0 or 1 are told, and a scale spreads them") {
-  const TemporaryFolder folder;
-  const auto scans = four_points();  // All have 0.5.
-  const Sequence sequence = sequence_of(scans);
-  CleanPaths paths;
-  paths.map = folder.path() / "map.las";
-  const auto results = [&](std::optional<double> scale, double voxel) {
-    CleanWriting writing;
-    writing.tile_size = 100.0;
-    writing.tile_extension = ".las";
-    writing.intensity_scale = scale;
-    writing.voxel_size = voxel;
-    CleanOutputs outputs(paths, writing, sequence, no_progress(), kGoOn);
-    outputs.add(scans->load(0), kTwoRemoved);
-    outputs.commit();
-    return outputs.results();
-  };
-  const std::vector<std::string> faint = results({}, 0.0);
-  REQUIRE(faint.size() == 1);
-  CHECK_THAT(faint[0], Contains("-o: 2 of 2 intensities lie between 0 and 1") &&
-                           Contains("'intensity_1'") && Contains("--intensity-scale 65535"));
-  paths.overwrite = true;
-  for (const double voxel : {0.0, 0.1}) {
-    CHECK(results(1000.0, voxel).empty());
-    CHECK(column(read_records(paths.map), "intensity") == std::vector<double>{500, 500});
-    CHECK(column(read_records(paths.map), "intensity_1") == std::vector<double>{0.5, 0.5});
-  }
-  const std::vector<std::string> large = results(1e6, 0.0);
-  REQUIRE(large.size() == 1);
-  CHECK_THAT(large[0], Contains("2 points with an intensity of more than 65,535"));
-  CHECK(column(read_records(paths.map), "intensity") == std::vector<double>{65535, 65535});
-  paths.map = folder.path() / "tiles";
-  paths.tiled = true;
-  CHECK(results({}, 0.0) == faint);
-  CHECK(results(1000.0, 0.0).empty());
-  CHECK(column(read_records(entries_of(paths.map).at(1)), "intensity") ==
-        std::vector<double>{500, 500});
-}
-
-TEST_CASE("A scale of intensities needs a file that shows them as whole numbers") {
-  const TemporaryFolder folder;
-  CleanPaths paths;
-  paths.map = folder.path() / "map.ply";
-  CleanWriting writing;
-  writing.intensity_scale = 255.0;
-  CHECK_THROWS_WITH(write(paths, four_points(), writing),
-                    Contains("--intensity-scale has no effect") && Contains(".las"));
-  paths.map = folder.path() / "map.las";
-  CHECK_THROWS_AS(
-      write(paths, four_points(parse_point_layout("x y z intensity:u2 ring:u2")), writing),
-      UsageError);
-  CHECK(entries_of(folder.path()).empty());
-}
-
-TEST_CASE("Tiles lie in the plane that is level, whatever axis is up") {
-  const TemporaryFolder folder;
-  const auto scans = four_points();
-  Sequence sequence = sequence_of(scans);
-  sequence.up_choice = std::make_shared<UpChoice>(Eigen::Vector3d(1.0, 0.0, 0.0));
-  CleanPaths paths;
-  paths.map = folder.path() / "tiles";
-  paths.tiled = true;
-  CleanWriting writing;
-  writing.tile_size = 5.0;
-  CleanOutputs outputs(paths, writing, sequence, no_progress(), kGoOn);
-  outputs.add(scans->load(0), kTwoRemoved);
-  outputs.commit();
-  // All points lie on the line upwards.
-  CHECK(nlohmann::json::parse(read_text(paths.map / "manifest.json"))["tiles"].size() == 1);
 }
 
 TEST_CASE("What a format cannot hold is said, or refused, before anything is written") {
