@@ -26,6 +26,10 @@ std::string fixed_text(double value, int decimals) {
   return {buffer.data(), result.ptr};
 }
 
+std::string percent_text(double share, int decimals) {
+  return fixed_text(100.0 * share, decimals) + " %";
+}
+
 std::string grouped_text(std::uint64_t value) {
   std::string digits = std::to_string(value);
   for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) {

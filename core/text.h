@@ -20,6 +20,9 @@ std::string plain_number_text(double value);
 /// `value` with `decimals` digits after the point, rounded to nearest; locale independent.
 std::string fixed_text(double value, int decimals);
 
+/// 0.4567 -> "46 %", or "45.7 %" with one decimal.
+std::string percent_text(double share, int decimals = 0);
+
 /// 1234567 -> "1,234,567".
 std::string grouped_text(std::uint64_t value);
 

@@ -106,6 +106,8 @@ struct Sequence {
   std::string poses_file;  ///< Name of the pose file, without a path.
   /// Estimated or refined poses of the frame of the stored points; empty: the poses are the user's.
   std::vector<Pose> made_poses = {};
+  /// Reasons why `made_poses` may be wrong, each as a clause.
+  std::vector<std::string> pose_doubts = {};
   std::string source;  ///< Free text on origin and licence.
   std::optional<double> scan_period_s;
   /// Calibration "Tr" if the pose file has poses of a camera; the scans' poses contain it.

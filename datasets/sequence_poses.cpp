@@ -102,13 +102,14 @@ void make_poses(Sequence& sequence, PoseWork work, const OpenContext& context) {
   if (work == PoseWork::kNone) return;
   const bool estimates = work == PoseWork::kEstimate;
   check_can_move(sequence, std::string("--poses ") + (estimates ? kEstimate : kRefine));
-  const odometry::MovingScans input{*sequence.scans, point_times_of(sequence), 0.0,
+  const odometry::MovingScans input{*sequence.scans, point_times_of(sequence), {},
                                     context.threads, context.progress,         context.cancel};
   std::vector<Pose> given;
   for (std::size_t i = 0; i < sequence.scans->size(); ++i) given.push_back(sequence.scans->pose(i));
   odometry::PoseEstimate made =
       estimates ? odometry::estimate_poses(input) : odometry::refine_poses(input, given);
   sequence.made_poses = std::move(made.poses);
+  sequence.pose_doubts = std::move(made.doubts);
   sequence.scans = std::make_shared<ReposedSource>(sequence.scans, sequence.made_poses);
   sequence.notes.insert(sequence.notes.end(), made.notes.begin(), made.notes.end());
   sequence.poses_file = estimates ? kEstimate : kRefine + (":" + sequence.poses_file);

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFew = 0.001;
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
-  return fixed_text(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+  return percent_text(static_cast<double>(part) / static_cast<double>(whole), 2);
 }
 
 }  // namespace

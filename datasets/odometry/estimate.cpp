@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/sampling.h"
 #include "core/text.h"
+#include "datasets/odometry/motion_search.h"
 #include "datasets/odometry/odometry.h"
 #include "datasets/registration/pose_fit.h"
 #include "datasets/registration/reposed_source.h"
@@ -32,14 +33,17 @@ constexpr MotionSigma kFreeSigma{0.3, 0.02};      // The same where it is not de
 /// Of given poses: weak enough that a jump of 2 m does not bend hundreds of scans.
 constexpr MotionSigma kGivenSigma{5.0, 0.25};
 constexpr std::size_t kScansAtOnce = 8;
+/// Difference of overlaps: below it two motions fit equally, and above it one fits clearly better.
+constexpr double kEqual = 0.008, kClear = 0.01;
+constexpr double kPoorFit = 0.5;  // Of the median; scans of good estimates reach 0.68.
+constexpr std::size_t kFewestSearched = 4, kScansPerSearch = 150, kMostSearches = 6;
 
-double median_range_of(const ScanSource& scans) {
-  std::vector<float> ranges;
-  for (std::size_t k = 0; k < scans.size() && ranges.empty(); ++k) {
-    const std::size_t i = (scans.size() / 2 + k) % scans.size();
-    for (const Eigen::Vector3f& point : scans.load(i).points) ranges.push_back(point.norm());
+/// The scale of the middle scan, or of the next that has a point.
+ScanScale scale_of(const ScanSource& scans) {
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const Scan scan = scans.load((scans.size() / 2 + k) % scans.size());
+    if (scan.size() > 0) return odometry::scale_of(scan);
   }
-  if (!ranges.empty()) return median_in_place(ranges);
   throw DataError("no scan has a point, so poses cannot be estimated. Take other scans.");
 }
 
@@ -64,10 +68,6 @@ bool is_uncertain(const Registered& scan) {
   return !scan.determined;
 }
 
-std::string percent_text(double share) {
-  return fixed_text(100.0 * share, 0) + " %";
-}
-
 [[noreturn]] void throw_lost(const Steps& steps) {
   const std::size_t now = steps.scans.size() - 1;
   const double apart = steps.times[now] - steps.times[now - 1];
@@ -83,12 +83,19 @@ std::string percent_text(double share) {
       percent_text(steps.scans[now].overlap), percent_text(kLeastOverlap), gap));
 }
 
-/// Runs odometry over all scans. Scans are read in parallel, some at a time.
+/// How odometry begins, and over how many scans.
+struct Course {
+  std::size_t scans;
+  std::optional<Pose> first_motion = std::nullopt;
+  bool may_be_lost = false;  ///< Else a scan that does not overlap is an error.
+};
+
+/// Runs odometry over scans. They are read in parallel, some at a time.
 /// @param given null, or poses whose motions are a second guess
-Steps odometry_of(const MovingScans& input, const std::vector<Pose>* given) {
-  Odometry odometry(input.median_range);
+Steps odometry_of(const MovingScans& input, const Course& course, const std::vector<Pose>* given) {
+  Odometry odometry(input.scale, course.first_motion);
   Steps steps;
-  const std::size_t count = input.scans.size();
+  const std::size_t count = course.scans;
   if (input.progress != nullptr) input.progress->begin("estimating poses", count);
   std::vector<Scan> scans;
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,7 +112,7 @@ Steps odometry_of(const MovingScans& input, const std::vector<Pose>* given) {
     steps.names.push_back(scan.name);
     steps.scans.push_back(odometry.add(
         scan, input.point_times ? input.point_times(scan) : std::vector<double>(), hint));
-    if (given == nullptr && is_lost(steps.scans.back())) throw_lost(steps);
+    if (!course.may_be_lost && is_lost(steps.scans.back())) throw_lost(steps);
     if (input.progress != nullptr) input.progress->advance();
   }
   if (input.progress != nullptr) input.progress->end();
@@ -251,15 +258,111 @@ bool is_worse(const registration::PoseFit& fit, const registration::PoseFit& oth
          worst > std::max(other_worst, registration::kMostDistanceOfPair);
 }
 
+/// "scans 000000 to 000009 also fit a motion of 3.00 m from scan to scan, ...".
+std::string doubt_text(const std::vector<std::string>& names, std::size_t begin,
+                       const MotionSearch& search) {
+  const auto metres = [](const TriedMotion& motion) {
+    return fixed_text(motion.last.translation().norm(), 2) + " m";
+  };
+  return fmt::format(
+      "scans {} to {} also fit a motion of {} from scan to scan, with an overlap of {}; with the "
+      "{} of the poses it is {}",
+      names[begin], names[std::min(begin + kSearchedScans, names.size()) - 1], metres(search.other),
+      percent_text(search.other.overlap, 1), metres(search.given),
+      percent_text(search.given.overlap, 1));
+}
+
+/// The motion from the first scan to the second under which the first scans fit best; empty if
+/// there are too few scans to tell.
+std::optional<Pose> better_start(const MovingScans& input, std::vector<std::string>& doubts) {
+  const std::size_t count = std::min(kSearchedScans, input.scans.size());
+  if (count < kFewestSearched) return std::nullopt;
+  MovingScans quiet = input;
+  quiet.progress = nullptr;
+  const Steps steps = odometry_of(quiet, {count, std::nullopt, true}, nullptr);
+  MotionSearch search = search_motion(input, 0, steps.poses());
+  TriedMotion best = search.alike;
+  if (search.advantage() > 0.0) {
+    std::swap(search.given, search.other);
+    best = search.given;
+  }
+  if (search.advantage() > -kEqual) doubts.push_back(doubt_text(steps.names, 0, search));
+  return best.first;
+}
+
+/// Adds doubts where another motion fits clearly better than that of `poses`, and returns it.
+std::optional<Pose> search_along(const MovingScans& input, const Steps& steps,
+                                 const std::vector<Pose>& poses, std::vector<std::string>& doubts) {
+  std::optional<Pose> better;
+  if (poses.size() < 2 * kSearchedScans) return better;
+  const std::size_t most = std::min(2 + poses.size() / kScansPerSearch, kMostSearches);
+  for (const std::size_t begin : evenly_spread(poses.size() - kSearchedScans + 1, most)) {
+    if (begin == 0) continue;
+    const auto first = poses.begin() + static_cast<std::ptrdiff_t>(begin);
+    const MotionSearch search = search_motion(input, begin, {first, first + kSearchedScans});
+    if (search.advantage() <= kClear) continue;
+    doubts.push_back(doubt_text(steps.names, begin, search));
+    if (!better) better = search.other.first;
+  }
+  return better;
+}
+
+/// Adds a doubt if scans after the second fit much worse than most, as after a turn that was too
+/// fast.
+void doubt_poor_fits(const Steps& steps, std::vector<std::string>& doubts) {
+  if (steps.scans.size() <= kFewestSearched) return;
+  std::vector<double> fits;
+  for (std::size_t i = 2; i < steps.scans.size(); ++i) fits.push_back(steps.scans[i].fit());
+  const double least = *std::min_element(fits.begin(), fits.end());
+  const double usual = median_in_place(fits);
+  if (least >= kPoorFit * usual) return;
+  const auto is_poor = [&](const Registered& scan) {
+    return &scan > &steps.scans[1] && scan.fit() < kPoorFit * usual;
+  };
+  doubts.push_back(fmt::format(
+      "only {} of the points of some scans lie on surfaces of the scans before them, compared with "
+      "{} in most (scans {})",
+      percent_text(least), percent_text(usual), ranges_text(steps, is_poor)));
+}
+
+/// An estimate that begins with a motion.
+struct Attempt {
+  Steps steps;
+  PoseEstimate estimate;
+  std::optional<Pose> better_motion;  ///< If one fits clearly better than that of the poses.
+};
+
+Attempt attempt(const MovingScans& input, const Course& course) {
+  Attempt made{odometry_of(input, course, nullptr), {}, {}};
+  made.estimate.poses = with_loops(input, made.steps, step_edges(made.steps, nullptr),
+                                   made.steps.poses(), made.estimate);
+  made.better_motion = search_along(input, made.steps, made.estimate.poses, made.estimate.doubts);
+  doubt_poor_fits(made.steps, made.estimate.doubts);
+  return made;
+}
+
+/// The estimate from the motion with which the first scans fit best, or, if later scans fit another
+/// motion better, from that one.
+Attempt best_attempt(const MovingScans& input) {
+  std::vector<std::string> doubts;
+  const std::size_t count = input.scans.size();
+  Attempt best = attempt(input, {count, better_start(input, doubts)});
+  if (best.better_motion) {
+    Attempt other = attempt(input, {count, best.better_motion, true});
+    const auto& scans = other.steps.scans;
+    if (!other.better_motion && std::none_of(scans.begin(), scans.end(), is_lost)) return other;
+  }
+  best.estimate.doubts.insert(best.estimate.doubts.begin(), doubts.begin(), doubts.end());
+  return best;
+}
+
 }  // namespace
 
 PoseEstimate estimate_poses(MovingScans input) {
-  PoseEstimate estimate;
-  if (input.scans.size() == 0) return estimate;
-  if (!(input.median_range > 0.0)) input.median_range = median_range_of(input.scans);
-  const Steps steps = odometry_of(input, nullptr);
+  if (input.scans.size() == 0) return {};
+  if (!(input.scale.cell > 0.0)) input.scale = scale_of(input.scans);
+  auto [steps, estimate, better_motion] = best_attempt(input);
   check_certain(steps);
-  estimate.poses = with_loops(input, steps, step_edges(steps, nullptr), steps.poses(), estimate);
   if (is_at_rest(estimate.poses)) {
     estimate.notes.push_back(
         "The sensor was at rest, or all that it sees moves along with it: the estimated poses "
@@ -276,8 +379,8 @@ PoseEstimate estimate_poses(MovingScans input) {
 PoseEstimate refine_poses(MovingScans input, const std::vector<Pose>& given) {
   PoseEstimate estimate;
   if (input.scans.size() == 0) return estimate;
-  if (!(input.median_range > 0.0)) input.median_range = median_range_of(input.scans);
-  const Steps steps = odometry_of(input, &given);
+  if (!(input.scale.cell > 0.0)) input.scale = scale_of(input.scans);
+  const Steps steps = odometry_of(input, {input.scans.size(), std::nullopt, true}, &given);
   std::vector<GraphEdge> edges = step_edges(steps, &given);
   for (std::size_t i = 0; i < given.size(); ++i) {
     edges.push_back({std::nullopt, i, given[i], kGivenSigma, true});

@@ -11,14 +11,15 @@ namespace raymoval::odometry {
 
 /// Estimated poses, and what the user should know about them.
 struct PoseEstimate {
-  std::vector<Pose> poses;         ///< T_world_sensor of each scan.
-  std::vector<std::string> notes;  ///< Whole sentences.
-  std::size_t loops = 0;           ///< Returns to a place that were used.
+  std::vector<Pose> poses;          ///< T_world_sensor of each scan.
+  std::vector<std::string> notes;   ///< Whole sentences.
+  std::vector<std::string> doubts;  ///< Reasons why they may be wrong, each as a clause.
+  std::size_t loops = 0;            ///< Returns to a place that were used.
 };
 
 /// Estimates the poses of scans from the scans alone: odometry (see `Odometry`), then a pose graph
 /// with the returns to a place (see `find_loops`). The first scan's frame is the world frame.
-/// @param input `median_range` may be 0: it is taken from the middle scan
+/// @param input `scale` may be 0: it is taken from the middle scan
 /// @throws DataError naming the scan that does not overlap with the scans before it, or the scans
 ///   whose motion is uncertain if they are more than 40 %, and remedies; or if a scan cannot be
 ///   read. Cancelled

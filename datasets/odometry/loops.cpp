@@ -107,11 +107,11 @@ class LoopSearch {
       motion = {input_.point_times(scan), poses_[before].inverse() * poses_[before + 1],
                 times_[before + 1] - times_[before]};
     }
-    return thinned(scan, motion, input_.median_range);
+    return thinned(scan, motion, input_.scale);
   }
   /// A map of the scans within a stride of a scan, in its frame.
   [[nodiscard]] PlaneMap map_around(std::size_t centre) const {
-    PlaneMap map(cell_for(input_.median_range));
+    PlaneMap map(input_.scale.cell);
     std::vector<std::size_t> scans = {centre};
     for (const int direction : {-1, 1}) {
       Vector3d last = poses_[centre].translation();
@@ -147,8 +147,7 @@ class LoopSearch {
 
 std::vector<GraphEdge> find_loops(const MovingScans& input, const std::vector<Pose>& poses,
                                   const std::vector<double>& times) {
-  const double stride =
-      std::clamp(kLoopStrideShare * input.median_range, kLeastStride, kMostStride);
+  const double stride = std::clamp(kLoopStrideShare * input.scale.range, kLeastStride, kMostStride);
   const std::vector<Candidate> candidates = candidates_of(poses, stride);
   const LoopSearch search(input, poses, times, stride);
   std::vector<std::optional<GraphEdge>> found(candidates.size());

@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "core/scan/scan_source.h"
+#include "datasets/odometry/map_registration.h"
 #include "datasets/odometry/pose_graph.h"
 
 namespace raymoval::odometry {
@@ -16,7 +17,7 @@ struct MovingScans {
   const ScanSource& scans;  ///< Their poses are not used.
   /// The time of each point, seconds from the time of the scan. Null: points have no times.
   std::function<std::vector<double>(const Scan&)> point_times = nullptr;
-  double median_range = 0.0;  ///< Of the points of the scans, metres.
+  ScanScale scale = {};  ///< Of the scans.
   int threads = 1;
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/sampling.h"
 #include "datasets/trajectories/trajectory.h"
@@ -13,10 +14,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kCellShare = 0.05, kLeastCell = 0.2, kMostCell = 0.5;  // of the median range; m
-constexpr double kNearestShare = 0.25;                                  // of the median range
-constexpr double kFarthest = 100.0;                                     // metres
-constexpr double kDenseSpacing = 0.4, kSparseSpacing = 1.5;             // cells
+/// Edge of the smallest cells: of the distance between points, of the median range; metres.
+constexpr double kCellSpacings = 4.7, kMostOfRange = 0.08, kLeastCell = 0.2, kMostCell = 0.5;
+constexpr double kNearestShare = 0.25;                       // of the median range
+constexpr double kFarthest = 100.0;                          // metres
+constexpr double kDenseSpacing = 0.4, kSparseSpacing = 1.5;  // cells
 constexpr std::size_t kMostRegistered = 3000;
 constexpr double kOnMap = 0.1;  // metres
 /// Least share of the weights that determines a direction: a few trees along a road do.
@@ -79,15 +81,27 @@ class Deskewing {
 bool is_determined(const registration::Matches& matches) {
   registration::Matches planes;
   for (const registration::Match& match : matches) {
-    if (match.weight == 1.0) planes.push_back(match);
+    if (match.weight > PlaneMap::kRoughWeight)
+      planes.push_back({match.at, match.normal, match.distance});
   }
   return !planes.empty() && registration::plane_step(planes, kOnMap, kLeastShare).determined == 6;
 }
 
 }  // namespace
 
-double cell_for(double median_range) {
-  return std::clamp(kCellShare * median_range, kLeastCell, kMostCell);
+double usual_deviation(double period_s) {
+  constexpr double kLeast = 0.17, kAcceleration = 3.0;  // metres; metres per square second
+  return std::max(kLeast, 0.5 * kAcceleration * period_s * period_s);
+}
+
+ScanScale scale_of(const Scan& scan) {
+  std::vector<float> ranges;
+  for (const Vector3f& point : scan.points) ranges.push_back(point.norm());
+  const double range = median_in_place(ranges);
+  const double spacing =
+      range * std::sqrt(4.0 * std::numbers::pi / static_cast<double>(scan.size()));
+  const double cell = std::min(kCellSpacings * spacing, kMostOfRange * range);
+  return {range, std::clamp(cell, kLeastCell, kMostCell)};
 }
 
 std::vector<Vector3f> few_of(const std::vector<Vector3f>& points, std::size_t most) {
@@ -96,9 +110,9 @@ std::vector<Vector3f> few_of(const std::vector<Vector3f>& points, std::size_t mo
   return few;
 }
 
-ThinnedScan thinned(const Scan& scan, const ScanMotion& motion, double median_range) {
+ThinnedScan thinned(const Scan& scan, const ScanMotion& motion, const ScanScale& scale) {
   const Deskewing deskewing(motion);
-  const auto nearest = static_cast<float>(kNearestShare * median_range);
+  const auto nearest = static_cast<float>(kNearestShare * scale.range);
   std::vector<Vector3f> points;
   points.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -106,10 +120,9 @@ ThinnedScan thinned(const Scan& scan, const ScanMotion& motion, double median_ra
     if (range < nearest || range > static_cast<float>(kFarthest)) continue;
     points.push_back(deskewing(scan.points[i], i));
   }
-  const double cell = cell_for(median_range);
   ThinnedScan thin;
-  thin.dense = centroids(points, kDenseSpacing * cell);
-  thin.sparse = few_of(centroids(thin.dense, kSparseSpacing * cell), kMostRegistered);
+  thin.dense = centroids(points, kDenseSpacing * scale.cell);
+  thin.sparse = few_of(centroids(thin.dense, kSparseSpacing * scale.cell), kMostRegistered);
   return thin;
 }
 

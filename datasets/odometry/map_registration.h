@@ -22,12 +22,22 @@ struct ScanMotion {
   double duration = 0.0;            ///< Seconds.
 };
 
-/// Edge of the smallest cells of a map for scans with this median range, metres.
-double cell_for(double median_range);
+/// Lengths that depend on the sensor and the place, metres.
+struct ScanScale {
+  double range = 0.0;  ///< Median of the points.
+  double cell = 0.0;   ///< Edge of the smallest cells of a map.
+};
+
+/// The scale of a scan. Cells are larger if points are farther apart: strips of single rings on the
+/// ground do not determine the pitch. @param scan with a point
+ScanScale scale_of(const Scan& scan);
 
 /// Points nearer than a quarter of the median range are left out, because they may be of the ego
 /// vehicle, and points beyond 100 m, too.
-ThinnedScan thinned(const Scan& scan, const ScanMotion& motion, double median_range);
+ThinnedScan thinned(const Scan& scan, const ScanMotion& motion, const ScanScale& scale);
+
+/// Distance from a prediction with constant velocity, metres, for scans this many seconds apart.
+double usual_deviation(double period_s);
 
 /// How a scan was registered.
 struct Registered {

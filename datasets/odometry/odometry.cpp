@@ -19,6 +19,7 @@ constexpr double kFirstReach = 2.0;    // Threshold before a motion is known, me
 constexpr double kLeastMotion = 0.1;   // Smaller deviations do not count (KISS-ICP), metres.
 constexpr double kRangeOfTurns = 3.0;  // Median ranges at which a turn is measured.
 constexpr double kMostGap = 5.0;       // Motions that a prediction extends over a gap in time.
+constexpr double kGap = 2.5;           // Periods that are a gap in time.
 constexpr double kMapRadius = 100.0, kForgetEvery = 10.0;  // metres
 constexpr double kUsualFit = 0.92;  // A smaller share of the usual fit is registered again.
 constexpr double kUsualMemory = 0.9;
@@ -31,11 +32,12 @@ constexpr int kSearchSteps = 24;      // in each direction
 
 }  // namespace
 
-Odometry::Odometry(double median_range)
-    : median_range_(median_range), map_(cell_for(median_range)) {}
+Odometry::Odometry(const ScanScale& scale, const std::optional<Pose>& first_motion)
+    : scale_(scale), first_motion_(first_motion), map_(scale.cell) {}
 
 Pose Odometry::predicted(double time_s) const {
-  if (poses_.size() < 2) return poses_.empty() ? Pose::Identity() : poses_.back();
+  if (poses_.empty()) return Pose::Identity();
+  if (poses_.size() < 2) return poses_[0] * first_motion_.value_or(Pose::Identity());
   const double before = times_[1] - times_[0], now = time_s - times_[1];
   const double part = before > 0.0 && now > 0.0 ? std::min(now / before, kMostGap) : 1.0;
   return poses_[1] * part_of(poses_[0].inverse() * poses_[1], part);
@@ -50,7 +52,7 @@ double Odometry::threshold() const {
 void Odometry::learn(const Pose& deviation) {
   const double angle = Eigen::AngleAxisd(deviation.linear()).angle();
   const double size =
-      deviation.translation().norm() + 2.0 * kRangeOfTurns * median_range_ * std::sin(0.5 * angle);
+      deviation.translation().norm() + 2.0 * kRangeOfTurns * scale_.range * std::sin(0.5 * angle);
   if (size < kLeastMotion) return;
   squares_ += size * size;
   ++deviations_;
@@ -105,15 +107,14 @@ Registered Odometry::again(const std::vector<Vector3f>& points, const Pose& gues
   return best;
 }
 
-Registered Odometry::registered(const ThinnedScan& thin, const Pose& guess,
-                                const std::optional<Pose>& hint) const {
+Registered Odometry::registered(const ThinnedScan& thin, const std::vector<Pose>& guesses) const {
   const double reach = threshold();
-  Registered best = register_to_map(map_, thin.sparse, guess, reach);
-  if (hint) {
-    const Registered other = register_to_map(map_, thin.sparse, poses_.back() * *hint, reach);
+  Registered best = register_to_map(map_, thin.sparse, guesses[0], reach);
+  for (std::size_t k = 1; k < guesses.size(); ++k) {
+    const Registered other = register_to_map(map_, thin.sparse, guesses[k], reach);
     if (other.fit() > best.fit()) best = other;
   }
-  return best.fit() < kUsualFit * usual_fit_ ? again(thin.sparse, guess, best, reach) : best;
+  return best.fit() < kUsualFit * usual_fit_ ? again(thin.sparse, guesses[0], best, reach) : best;
 }
 
 void Odometry::extend(const ThinnedScan& thin, const Pose& T_map_sensor, double time_s) {
@@ -141,12 +142,27 @@ Registered Odometry::add(const Scan& scan, std::vector<double> point_times,
     motion.motion = poses_.back().inverse() * guess;
     motion.duration = scan.time_s - times_.back();
   }
-  const ThinnedScan thin = thinned(scan, motion, median_range_);
+  const ThinnedScan thin = thinned(scan, motion, scale_);
   Registered result{.overlap = 1.0, .matched = 1.0, .determined = true};
   if (!poses_.empty()) {
-    if (poses_.size() == 1) guess = searched(thin.dense, hint ? poses_[0] * *hint : guess);
-    result = registered(thin, guess, hint);
-    learn(guess.inverse() * result.T_map_sensor);
+    if (poses_.size() == 1) {
+      if (first_motion_) {
+        squares_ = std::pow(usual_deviation(motion.duration), 2);
+        deviations_ = 1;
+      } else {
+        guess = searched(thin.dense, hint ? poses_[0] * *hint : guess);
+      }
+    }
+    std::vector<Pose> guesses = {guess};
+    if (hint) guesses.push_back(poses_.back() * *hint);
+    const bool is_gap = poses_.size() == 2 && motion.duration > kGap * (times_[1] - times_[0]) &&
+                        times_[1] > times_[0];
+    if (is_gap) {  // The sensor may have stopped, or moved on.
+      guesses.push_back(poses_[1]);
+      guesses.push_back(poses_[1] * poses_[0].inverse() * poses_[1]);
+    }
+    result = registered(thin, guesses);
+    if (!is_gap) learn(guess.inverse() * result.T_map_sensor);
     usual_fit_ = usual_fit_ == 0.0
                      ? result.fit()
                      : kUsualMemory * usual_fit_ + (1.0 - kUsualMemory) * result.fit();

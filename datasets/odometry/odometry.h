@@ -17,8 +17,8 @@ namespace raymoval::odometry {
 /// predictions. Unlike the map of KISS-ICP, this one has planes (see `PlaneMap`).
 class Odometry {
  public:
-  /// @param median_range of the points of the scans, metres
-  explicit Odometry(double median_range);
+  /// @param first_motion from the first scan to the second, if it is known to half a metre
+  explicit Odometry(const ScanScale& scale, const std::optional<Pose>& first_motion = std::nullopt);
 
   /// Registers the next scan to the scans before. The pose is relative to the first scan.
   /// @param point_times of each point, seconds from the time of the scan; empty: no motion within
@@ -29,8 +29,9 @@ class Odometry {
 
  private:
   [[nodiscard]] Pose predicted(double time_s) const;
-  [[nodiscard]] Registered registered(const ThinnedScan& thin, const Pose& guess,
-                                      const std::optional<Pose>& hint) const;
+  /// The best result of registration from each guess; the first is the prediction.
+  [[nodiscard]] Registered registered(const ThinnedScan& thin,
+                                      const std::vector<Pose>& guesses) const;
   /// The pose up to 6 m from `guess` in plan at which points without a plane are nearest to others.
   [[nodiscard]] Pose searched(const std::vector<Eigen::Vector3f>& points, const Pose& guess) const;
   /// Registers again, also from turned guesses, and returns the best result.
@@ -40,7 +41,8 @@ class Odometry {
   void learn(const Pose& deviation);
   void extend(const ThinnedScan& thin, const Pose& T_map_sensor, double time_s);
 
-  double median_range_;
+  ScanScale scale_;
+  std::optional<Pose> first_motion_;
   PlaneMap map_;
   std::vector<Pose> poses_;    ///< The last two.
   std::vector<double> times_;  ///< Of `poses_`, seconds.

@@ -14,8 +14,8 @@ using Eigen::Vector3f;
 constexpr std::uint32_t kFewestPoints = 5;
 constexpr std::uint32_t kFullCell = 200;  // More do not change a plane, and old ones do not drift.
 constexpr float kMostThickness = 0.12F;   // Standard deviation across a plane, of the cell's edge.
-constexpr double kRoughWeight = 0.1;      // Of a match with a single point.
-constexpr float kLeastWidth = 0.12F;      // Standard deviation along a plane, of the cell's edge.
+/// Least and full standard deviation across a strip of points on a plane, of the cell's edge.
+constexpr float kLeastWidth = 0.12F, kFullWidth = 0.29F;
 
 }  // namespace
 
@@ -43,6 +43,7 @@ void PlaneMap::fit(Cell& cell, double cell_m) {
   const bool is_plane =
       thickness <= kMostThickness * edge && width >= kLeastWidth * edge && width > 3.0F * thickness;
   cell.mean = mean;
+  cell.weight = std::min(1.0F, std::pow(width / (kFullWidth * edge), 4.0F));
   cell.is_rough = thickness > kMostThickness * edge;
   cell.normal = is_plane ? Vector3f(solver.eigenvectors().col(0)) : Vector3f::Zero();
 }
@@ -169,7 +170,9 @@ registration::Matches PlaneMap::match(const std::vector<Vector3f>& points, const
       const Vector3d normal = cell->normal.cast<double>();
       const double distance =
           normal.dot(at - centre_of(*cell, levels_[k].cell_m) - cell->mean.cast<double>());
-      if (std::abs(distance) <= reach) matches.push_back({at, normal, distance});
+      const Vector3d ray = (at - T_map_sensor.translation()).normalized();
+      const double weight = std::max<double>(cell->weight, std::pow(normal.dot(ray), 2));
+      if (std::abs(distance) <= reach) matches.push_back({at, normal, distance, weight});
       break;
     }
   }

@@ -22,6 +22,7 @@ class PlaneMap {
  public:
   static constexpr int kLevels = 3;
   static constexpr std::uint32_t kSingles = 6;  ///< Points that a cell without a plane keeps.
+  static constexpr double kRoughWeight = 0.1;   ///< Of a match with a single point.
   /// @param cell_m edge of the smallest cells, metres
   explicit PlaneMap(double cell_m);
 
@@ -30,8 +31,9 @@ class PlaneMap {
   /// Removes the cells farther than `radius` from `centre`, metres.
   void forget_beyond(const Eigen::Vector3d& centre, double radius);
 
-  /// The planes below points, in the smallest cells that have one. A point in a cell without a
-  /// plane has three matches, with the nearest point along each axis, and a smaller weight.
+  /// The planes below points, in the smallest cells that have one. Planes of narrow strips, such as
+  /// of one ring, have less weight, but more than `kRoughWeight`. A point in a cell without a plane
+  /// has three matches, with the nearest point along each axis, and that weight.
   /// @param points in the frame of a sensor
   /// @param T_map_sensor of that sensor
   /// @param reach largest distance from a plane, metres. Only cells of at least this size are used.
@@ -54,6 +56,7 @@ class PlaneMap {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     std::array<float, 6> products{};  ///< Sums of xx, xy, xz, yy, yz, zz, from the cell's centre.
     Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
+    float weight = 1.0F;    ///< Of the plane: how much of the cell's width its points fill.
     bool is_rough = false;  ///< Thick, so that it has no plane.
     std::uint32_t singles = 0;
     std::array<Eigen::Vector3f, kSingles> points;  ///< From the cell's centre.

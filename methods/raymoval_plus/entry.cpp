@@ -9,7 +9,7 @@ MethodEntry raymoval_plus_entry() {
   entry.sentence =
       "Terrain, three-way evidence of every scan on every voxel, a vote, objects and tracks.";
   entry.source = "this project";
-  entry.version = "29";
+  entry.version = "30";
   entry.confidence = {
       "What was decided on a point, the evidence of its voxel, and the dynamic share of its "
       "object.",
@@ -37,8 +37,7 @@ MethodEntry raymoval_plus_entry() {
       "is removed, lower them; if far objects stay, raise evidence_range_max.";
   // Who answers soon has not seen yet what comes after: more scans from before are kept, and fewer
   // voxels around have to be dynamic.
-  const Configuration at_once = {
-      {"at_once", true}, {"history_scans", 40}, {"history_step", 1}, {"vote_share", 0.4}};
+  const Configuration at_once = {{"at_once", true}, {"history_scans", 40}, {"vote_share", 0.4}};
   Configuration a_second_later = at_once;
   a_second_later.emplace_back("delay", 1.0);
   entry.variants = {

@@ -29,6 +29,9 @@ std::pair<py::array_t<double>, std::vector<std::string>> make_poses_of(
                {threads > 0 ? threads : hardware_threads(), work.progress, work.cancel});
     if (!file.empty()) write_atomically(file, pose_file_text(sequence, file));
   });
+  for (const std::string& doubt : sequence.pose_doubts) {
+    sequence.notes.push_back("The poses may be wrong: " + doubt + ".");
+  }
   return {array_of(sequence.made_poses), sequence.notes};
 }
 

@@ -19,8 +19,10 @@ struct Rectangle {
 /// Scans of rectangles: rows from -25 to +15 degrees by 1, columns by 1.5 degrees.
 class FlatWorld : public ScanSource {
  public:
-  void scan(const std::vector<Rectangle>& surfaces, const Pose& T_world_sensor) {
+  void scan(const std::vector<Rectangle>& surfaces, const Pose& T_world_sensor,
+            double time_s = 0.0) {
     Scan scan;
+    scan.time_s = time_s;
     scan.index = scans_.size();
     scan.T_world_sensor = T_world_sensor;
     for (double azimuth = 0.3; azimuth < 360.0; azimuth += 1.5) {

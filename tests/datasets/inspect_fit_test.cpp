@@ -37,6 +37,14 @@ TEST_CASE("how well right poses fit is reported, and no finding", "[inspect]") {
   CHECK_THAT(report.pose_fit, Catch::Contains("poses fit to 0.000 m (median of "));
 }
 
+TEST_CASE("a doubt about estimated poses is a finding", "[inspect]") {
+  Sequence street = make_street({}, street_boxes());
+  street.pose_doubts = {"scans 0 to 9 also fit a motion of 0.00 m"};
+  const InspectionReport report = inspect(street, 2);
+  check_finds(report, "motion-uncertain", "--poses FILE");
+  CHECK(report.findings[0].consequence == Consequence::kRefused);
+}
+
 TEST_CASE("a jump of the poses is found between two frames, and each side fits",
           "[inspect][slow]") {
   const auto jump = [](std::size_t scan) -> Eigen::Vector3d {

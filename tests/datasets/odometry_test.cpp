@@ -170,6 +170,81 @@ TEST_CASE("a sensor at rest is reported, and does not drift", "[odometry]") {
   CHECK(all_notes(estimate).find("The sensor was at rest") != std::string::npos);
 }
 
+namespace {
+
+/// A road along x: ground and low barriers, which fit any motion along it, walls that face the road
+/// beyond the left barrier, and vehicles that move with the sensor by 3 m a scan.
+/// @param half_height of the walls, metres
+FlatWorld motorway(double half_height) {
+  constexpr int kScans = 14;
+  const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+  const double places[] = {-38, -31, -17, -11, 2, 9, 23, 28, 44, 57, 63, 76, 80, 97};
+  FlatWorld world;
+  for (int i = 0; i < kScans; ++i) {
+    const double at = 3.0 * i;
+    std::vector<Rectangle> surfaces = {{{at, 0, -1.7}, 60 * x, 20 * y}};
+    for (const double side : {-1.0, 1.0}) {
+      surfaces.push_back({{at, 9 * side, -1.4}, 60 * x, 0.3 * z});
+      for (const double ahead : {-14.0, 8.0}) {
+        surfaces.push_back({{at + ahead, 4 * side, -0.7}, y, z});
+        surfaces.push_back({{at + ahead + 2.0, 3 * side, -0.7}, 2 * x, z});
+      }
+    }
+    for (const double place : places) {
+      surfaces.push_back({{place, 12, -1.7 + half_height}, 2 * y, half_height * z});
+    }
+    world.scan(surfaces, pose_at(at, 0, 0));
+  }
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("vehicles at the speed of the sensor do not hide its motion", "[odometry]") {
+  const FlatWorld world = motorway(4.0);
+  const PoseEstimate estimate = estimate_poses({world});
+  CAPTURE(all_notes(estimate));
+  CHECK(error_of(estimate.poses, world) < 0.3);
+  CHECK(estimate.doubts.empty());
+}
+
+TEST_CASE("a wrong motion beside vehicles is doubted", "[odometry]") {
+  // The lower the walls, the more points of vehicles there are for each of theirs.
+  std::size_t doubts = 0;
+  for (const double half_height : {1.0, 1.3, 1.5, 1.7, 2.0}) {
+    CAPTURE(half_height);
+    const FlatWorld world = motorway(half_height);
+    const PoseEstimate estimate = estimate_poses({world});
+    CHECK((error_of(estimate.poses, world) < 0.3 || !estimate.doubts.empty()));
+    doubts += estimate.doubts.size();
+    for (const std::string& doubt : estimate.doubts) {
+      CHECK(doubt.find("also fit a motion of") != std::string::npos);
+    }
+  }
+  CHECK(doubts > 0);
+}
+
+TEST_CASE("a turn that is too fast is doubted", "[odometry]") {
+  FlatWorld world;
+  for (int i = 0; i < 10; ++i) {
+    world.scan(room({0.15, 0.15, 0.1}), pose_at(0.05 * i, 0.0, i < 7 ? 0.0 : 30.0));
+  }
+  const PoseEstimate estimate = estimate_poses({world});
+  REQUIRE(estimate.doubts.size() == 1);
+  CHECK(estimate.doubts[0].find("of the points of some scans lie on surfaces") !=
+        std::string::npos);
+}
+
+TEST_CASE("a gap in time is reported, and the motion continues across it", "[odometry]") {
+  FlatWorld world;
+  for (int i = 0; i < 8; ++i) {
+    world.scan(room({0.15, 0.15, 0.1}), pose_at(0.1 * i, 0.0, 0.0), 0.1 * i + (i < 4 ? 0.0 : 5.0));
+  }
+  const PoseEstimate estimate = estimate_poses({world});
+  CHECK(error_of(estimate.poses, world) < 0.02);
+  CHECK(all_notes(estimate).find("There is no scan for 5.1 s") != std::string::npos);
+}
+
 TEST_CASE("scans that do not overlap are refused by name", "[odometry]") {
   // Two sides of a wedge beside each other, then single walls far apart.
   FlatWorld world;
@@ -243,7 +318,7 @@ TEST_CASE("points are moved to the time of the scan", "[odometry]") {
   // scan is 0.5 m farther ahead in the frame of that time.
   Scan scan;
   scan.points = {{4.0F, 0.0F, 0.0F}, {4.0F, 3.0F, 0.0F}};
-  const ThinnedScan thin = thinned(scan, {{0.0, 0.1}, pose_at(0.5, 0.0, 0.0), 0.1}, 4.0);
+  const ThinnedScan thin = thinned(scan, {{0.0, 0.1}, pose_at(0.5, 0.0, 0.0), 0.1}, {4.0, 0.2});
   REQUIRE(thin.dense.size() == 2);
   CHECK(thin.dense[0].x() == Approx(4.0).margin(0.003));
   CHECK(thin.dense[1].x() == Approx(4.5).margin(0.003));

@@ -109,6 +109,14 @@ std::vector<Finding> look_at_fit(Samples& samples) {
            .remedy = remedy_of(samples, fit)}};
 }
 
+std::vector<Finding> look_at_doubts(Samples& samples) {
+  std::vector<Finding> findings;
+  for (const std::string& doubt : samples.sequence().pose_doubts) {
+    findings.push_back({.what = doubt});
+  }
+  return findings;
+}
+
 }  // namespace
 
 std::string pose_fit_text(const Samples& samples) {
@@ -129,7 +137,12 @@ std::vector<Check> fit_checks() {
                        fixed_text(registration::kMostDistance, 2),
                        fixed_text(registration::kMostDistanceOfPair, 2)),
            "Estimate the poses again with a SLAM program that closes loops.", look_at_fit,
-           Consequence::kRefused}};
+           Consequence::kRefused},
+          {"motion-uncertain", "scans fit another motion than that of the estimated poses, or none",
+           "scans that fit one motion of the sensor, and better than any other",
+           "Compare the path with the drive. If it is wrong, take scans at a higher rate, or the "
+           "poses of a program that also uses an IMU: --poses FILE.",
+           look_at_doubts, Consequence::kRefused}};
 }
 
 }  // namespace raymoval::inspection

@@ -88,10 +88,6 @@ void look_at_axes(Samples& samples, PoseVerdict& verdict) {
   verdict.check = "camera-frame";
 }
 
-std::string percent(double share) {
-  return fixed_text(100.0 * share, 0) + " %";
-}
-
 /// Whether the points move along with the poses, like points in the world frame. Traffic of the
 /// same speed and the ego vehicle agree without poses, but stay around the origin.
 bool points_follow_poses(const Samples& samples) {
@@ -264,9 +260,9 @@ PoseVerdict compare_hypotheses(Samples& samples) {
   if (!fit.is_informative() || given >= kGood) return {};
   const auto [best, reached] = best_hypothesis(samples, fit, hypotheses);
   samples.measures.emplace_back("agreement_of_best_hypothesis", reached);
-  const std::string now = "the scans fit to " + percent(given) + " under the poses";
+  const std::string now = "the scans fit to " + percent_text(given) + " under the poses";
   if (reached >= kNamed && reached > given + kBetter) {
-    return {best.check, now + " and to " + percent(reached) + " " + best.phrase, best.remedy};
+    return {best.check, now + " and to " + percent_text(reached) + " " + best.phrase, best.remedy};
   }
   if (const double step = position_step(samples.poses()); step > 0.0) {
     return {"poses-coarse",
@@ -280,7 +276,7 @@ PoseVerdict compare_hypotheses(Samples& samples) {
           now +
               " (100 % = registered to each other), and under no usual mistake of frames, units or "
               "order to more than " +
-              percent(reached)};
+              percent_text(reached)};
 }
 
 }  // namespace

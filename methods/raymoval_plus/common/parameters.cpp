@@ -44,8 +44,6 @@ void add_when(Lines& table) {
   table.integer("history_scans", &P::history_scans, "scans", 0, 1000,
                 "Number of earlier scans that are kept as evidence for new voxels.",
                 "at_once is true or one_pass is true");
-  table.integer("history_step", &P::history_step, "scans", 1, 1000, "Every n-th scan is kept.",
-                "at_once is true and history_scans > 0 or one_pass is true and history_scans > 0");
 }
 
 void add_terrain(Lines& table) {
@@ -62,9 +60,8 @@ void add_evidence(Lines& table) {
                "voxels and clusters.");
   table.number("evidence_range_min", &P::evidence_range_min, "m", 0, 50,
                "Nearer voxels are not tested.");
-  table.number(
-      "evidence_range_max", &P::evidence_range_max, "m", 1, 500,
-      "Farther voxels are not tested, and farther points are in no cluster and not lone drops.");
+  table.number("evidence_range_max", &P::evidence_range_max, "m", 1, 500,
+               "Farther voxels are not tested, and farther points are in no cluster.");
   table.number("hit_distance", &P::hit_distance, "m", 0, 5,
                "A beam that crosses a voxel and ends this near to it hits it; 5 mm more for each "
                "metre of range.");
@@ -75,8 +72,6 @@ void add_evidence(Lines& table) {
       "voxel_contradiction", &P::voxel_contradiction, "", kMoreThanNone, 1,
       "A voxel is dynamic if scans that pass it before its first or after its last hit are "
       "this share of these and up to ten hits.");
-  table.flag("ground_evidence", &P::ground_evidence,
-             "Also collect evidence for ground; else it is always kept.", kTerrain);
   table.integer("vote_radius", &P::vote_radius, "voxels", 0, 8,
                 "Half width of the cube of voxels that vote; 0 for no vote.");
   table.number("vote_share", &P::vote_share, "", kMoreThanNone, 1,

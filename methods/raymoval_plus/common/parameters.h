@@ -14,7 +14,6 @@ struct Parameters {
   double delay = 0.0;
   int recent_scans = 30;
   int history_scans = 20;
-  int history_step = 2;
   // Terrain.
   bool terrain = true;
   double terrain_cell = 0.4;
@@ -42,7 +41,6 @@ struct Parameters {
   double voxel_contradiction = 0.5;
   /// Hits that a voxel needs to be static.
   static constexpr int static_hits = 2;
-  bool ground_evidence = true;
   // Vote.
   int vote_radius = 3;
   double vote_share = 0.5;

@@ -94,8 +94,7 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
 }
 
 void EarlierScans::keep(BeamImage&& image, std::size_t scan) {
-  const bool is_kept = scans_++ % static_cast<std::size_t>(parameters_.history_step) == 0;
-  if (!is_kept || parameters_.history_scans == 0) return;
+  if (parameters_.history_scans == 0) return;
   if (kept_.size() < static_cast<std::size_t>(parameters_.history_scans)) {
     kept_.push_back({std::move(image), scan});
     return;

@@ -41,8 +41,8 @@ class EarlierScans {
   /// @param center position of the sensor that found them, world frame, metres
   void add_evidence(std::size_t first_voxel, const Eigen::Vector3d& center, WhenToDecide when,
                     const RunContext& context, EvidenceMap& map) const;
-  /// Takes the next scan. One of `history_step` scans is kept, and at most the last
-  /// `history_scans`. The image that is left is to be filled anew.
+  /// Takes the next scan. The last `history_scans` are kept. The image that is left is to be filled
+  /// anew.
   /// @param scan its number
   void keep(BeamImage&& image, std::size_t scan);
 
@@ -52,7 +52,6 @@ class EarlierScans {
     std::size_t number;
   };
   Parameters parameters_;
-  std::size_t scans_ = 0;
   std::vector<EarlierScan> kept_;  ///< The oldest comes first.
 };
 

@@ -140,9 +140,7 @@ void add_to_maps(const Parameters& parameters, const RunContext& context, Locate
   for (std::size_t begin = 0; begin < points; begin += kPointsAtOnce) {
     const std::size_t end = std::min(points, begin + kPointsAtOnce);
     add_some<StandingPoints>(begin, end, parameters, scan, maps.standing, standing);
-    if (parameters.ground_evidence) {
-      add_some<GroundPoints>(begin, end, parameters, scan, maps.ground, ground);
-    }
+    add_some<GroundPoints>(begin, end, parameters, scan, maps.ground, ground);
   }
   for (const BeamImage::Extension& extension : scan.extensions) {
     const std::size_t k = extension.point;
@@ -156,7 +154,7 @@ void correct_voxels(const Parameters& parameters, const RunContext& context, Loc
                     EvidenceMaps& maps) {
   const StageScope timed(context.times, "voxels");
   correct_some<StandingPoints>(parameters, scan, maps.standing);
-  if (parameters.ground_evidence) correct_some<GroundPoints>(parameters, scan, maps.ground);
+  correct_some<GroundPoints>(parameters, scan, maps.ground);
 }
 
 void look_up(const EvidenceMaps& maps, const Parameters& parameters, const RunContext& context,
@@ -171,9 +169,7 @@ void look_up(const EvidenceMaps& maps, const Parameters& parameters, const RunCo
     for (std::size_t first = begin; first < end; first += kPointsAtOnce) {
       const std::size_t last = std::min(end, first + kPointsAtOnce);
       look_up_some<StandingPoints>(first, last, parameters, maps.standing, scan, standing);
-      if (parameters.ground_evidence) {
-        look_up_some<GroundPoints>(first, last, parameters, maps.ground, scan, ground);
-      }
+      look_up_some<GroundPoints>(first, last, parameters, maps.ground, scan, ground);
     }
   });
 }

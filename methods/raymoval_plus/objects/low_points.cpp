@@ -51,7 +51,6 @@ class LowPoints {
                                 static_cast<float>(parameters.voxel_size)),
         farthest_aside_(std::sqrt(2.0F) * (kMostColumnsAside + 1) *
                         static_cast<float>(parameters.voxel_size)),
-        asks_ground_(parameters.ground_evidence),
         verdict_(verdict) {}
 
   void decide() {
@@ -71,7 +70,7 @@ class LowPoints {
   /// Whether a point is so low that what stands above it may have a say in its verdict.
   [[nodiscard]] bool may_follow(std::size_t k) const {
     if (scan_.height[k] >= low_) return false;
-    return scan_.has_standing_voxel(k) || (asks_ground_ && !is_dynamic(k));
+    return scan_.has_standing_voxel(k) || !is_dynamic(k);
   }
   /// Whether a point of the ground lies above what was seen of the ground there, or was no ground
   /// itself when it was seen.
@@ -156,7 +155,6 @@ class LowPoints {
   float low_;                     ///< Metres.
   float columns_wider_by_range_;  ///< 1 / m.
   float farthest_aside_;          ///< How far aside a point that is reached can be, metres.
-  bool asks_ground_;
   Verdicts& verdict_;
   Columns columns_{Standing{}};
   Columns::Cursor cursor_;
