@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -56,43 +57,48 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
   CHECK(map.dynamic_in(map.block_of(far)) == 0);
 }
 
-TEST_CASE("a roof stands alone in its column, one voxel high or two") {
-  // Other voxels at these heights above it, metres.
-  struct Others {
-    std::vector<double> above;
-    bool is_roof;
-  };
-  const auto [above, is_roof] = GENERATE(
-      Others{{}, true}, Others{{0.2}, true}, Others{{-0.2}, true}, Others{{-0.2, 0.2}, false},
-      Others{{0.4}, false}, Others{{-1.6}, false}, Others{{1.6}, false}, Others{{-1.8, 1.8}, true});
-  MapPoints points;
-  const Eigen::Vector3d at(-3.95, 7.05, -0.55);
-  const auto roof = points.add(at);
-  for (const double metres : above) points.add(at + Eigen::Vector3d(0.0, 0.0, metres));
-  points.add(at + Eigen::Vector3d(0.2, 0.0, -0.4));  // Beside it.
-  CAPTURE(above);
-  EvidenceMap::Blocks::Cursor cursor;
-  CHECK(points.map.is_roof(roof, cursor) == is_roof);
+TEST_CASE("a voxel has the distribution of its points, and a plane if they are on one") {
+  // Nine points on a level square of 0.08 m: x and y have a variance of 0.04^2 m^2 x 2 / 3, and
+  // 0.04^2 m^2 are added to that of all axes.
+  for (const bool knows_planes : {true, false}) {
+    EvidenceMap map(0.2, knows_planes);
+    EvidenceMap::Blocks::Cursor cursor;
+    const auto add = [&](double x, double y, double z) {
+      const MapPoint at({x, y, z});
+      return map.add(at.cell, at.parts, cursor);
+    };
+    for (int k = 0; k < 9; ++k) add(0.06 + 0.04 * (k % 3), 0.06 + 0.04 * (k / 3), 0.1);
+    const VoxelShape flat = map.shape(0);
+    CHECK(flat.xx == Approx(1.0 / (0.0016 + 0.0010667)).epsilon(0.02));
+    CHECK(flat.yy == Approx(flat.xx).epsilon(0.02));
+    CHECK(flat.zz == Approx(1.0 / 0.0016).epsilon(0.02));
+    CHECK(flat.radius == Approx(std::sqrt(0.0026667)).epsilon(0.02));
+    CHECK(std::abs(flat.nz) > 0.999F);
+    // 0.04 m are more than 0.7 times 0.052 m, so that it is no plane; over 0.16 m they are less.
+    CHECK(flat.behind == 0.0F);
+    const auto wide = add(5.0 + 0.02, 0.02, 0.1);
+    for (const double x : {0.02, 0.18}) {
+      for (const double y : {0.02, 0.18}) add(5.0 + x, y, 0.1);
+    }
+    CHECK(map.shape(wide).behind == (knows_planes ? Approx(0.14).epsilon(0.01) : Approx(0.0)));
+    map.see_from(wide, 12.0F);
+    map.see_from(wide, 7.0F);
+    map.see_from(wide, 9.0F);
+    CHECK(map.shape(wide).nearest == 7.0F);
+  }
 }
 
-TEST_CASE("a column goes on over gaps, but not over wide ones") {
-  // Voxels of 0.2 m at these heights above the first one, metres, one of which is aside.
+TEST_CASE("a surface that goes on beside a point widens its voxel") {
   MapPoints points;
-  const auto at = [](double height) { return Eigen::Vector3d(-3.95, 7.05, -0.55 + height); };
-  const auto first = points.add(at(0.0));
-  for (const double height : {-0.2, 0.6, 1.6, 2.8}) points.add(at(height));
-  points.add(at(2.2) + Eigen::Vector3d(0.2, 0.0, 0.0));
-  EvidenceMap::Blocks::Cursor cursor;
-  const auto reaches = [&](double height) {
-    return points.map.column_reaches(first, at(height).z(), cursor);
-  };
-  CHECK(reaches(0.0));
-  CHECK(reaches(-0.2));
-  CHECK_FALSE(reaches(-0.4));
-  CHECK(reaches(0.4));
-  CHECK(reaches(1.6));  // Over 0.8 m, four cells.
-  CHECK_FALSE(reaches(1.8));
-  CHECK_FALSE(reaches(2.8));  // Over 1 m.
+  const Eigen::Vector3d at(0.1, 0.1, 0.1);
+  const auto voxel = points.add(at);
+  const VoxelShape before = points.map.shape(voxel);
+  points.map.add_beside(voxel, MapPoint(at).parts, {0.3F, 0.0F, 0.0F});
+  // Two samples 0.3 m apart: x deviates by 0.15 m.
+  CHECK(before.xx == Approx(625.0));
+  CHECK(points.map.shape(voxel).xx == Approx(1.0 / (0.0016 + 0.0225)).epsilon(0.02));
+  CHECK(points.map.shape(voxel).yy == Approx(625.0));
+  CHECK(points.map.centroid(voxel).x() == Approx(0.25).margin(0.001));
 }
 
 }  // namespace raymoval::raymoval_plus_test

@@ -132,15 +132,13 @@ TEST_CASE("every voxel in range is tested against each scan, and decided on") {
 }
 
 TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") {
-  // Of scans 0 to 4, every second one is kept, and of these the last two: 2 and 4. Scans 0, 1 and 3
-  // would hit the voxel at 5 m.
+  // Of scans 0 to 4, the last two are kept: 3 and 4. Scans 0 to 2 would hit the voxel at 5 m.
   Parameters parameters;
-  parameters.history_step = 2;
   for (const int history_scans : {2, 0}) {
     parameters.history_scans = history_scans;
     EarlierScans earlier(parameters);
     std::size_t scan = 0;
-    for (const float range : {5.0F, 5.0F, 10.0F, 5.0F, 12.0F}) {
+    for (const float range : {5.0F, 5.0F, 5.0F, 10.0F, 12.0F}) {
       earlier.keep(image_of_return(range), scan++);
     }
     MapPoints points;
@@ -155,10 +153,10 @@ TEST_CASE("a new voxel gets its evidence from the earlier scans that are kept") 
       CHECK(map.decision(fresh) == Verdict::kUndecided);
       continue;
     }
-    CHECK(map.evidence(fresh).first_passes == Passes{2, 4, 0, 0});
+    CHECK(map.evidence(fresh).first_passes == Passes{3, 4, 0, 0});
     CHECK(map.decision(fresh) == Verdict::kDynamic);
-    CHECK(map.evidence(hit).hits == 1);  // By scan 2; scan 4 passes afterwards.
-    CHECK(map.evidence(hit).first_hit == 2);
+    CHECK(map.evidence(hit).hits == 1);  // By scan 3; scan 4 passes afterwards.
+    CHECK(map.evidence(hit).first_hit == 3);
     CHECK(map.evidence(hit).last_passes[0] == 4);
   }
 }

@@ -75,23 +75,6 @@ TEST_CASE("what stands and the ground below it have voxels and verdicts of their
   look_up_verdicts(maps, RunContext{}, scan);
   CHECK(scan.verdict ==
         std::vector<Verdict>{Verdict::kDynamic, Verdict::kDynamic, Verdict::kStatic});
-  Parameters never = parameters;
-  never.ground_evidence = false;
-  look_up(maps, never, RunContext{}, scan);
-  CHECK(scan.verdict == stays);
-  CHECK(scan.ground_voxel == std::vector<std::uint32_t>(3, EvidenceMap::kNone));
-}
-
-TEST_CASE("without evidence for it, the ground has no voxels") {
-  Parameters parameters;
-  parameters.ground_evidence = false;
-  EvidenceMaps maps{parameters};
-  LocatedScan scan = located({{5.0, 0.1, 0.01}, {5.0, 0.1, 0.5}}, {0.01F, 0.5F}, maps);
-  add_to_maps(parameters, RunContext{}, scan, maps);
-  CHECK(maps.sizes() == std::array<std::size_t, 2>{1, 0});
-  set_verdicts(maps.standing, Verdict::kDynamic);
-  look_up_verdicts(maps, RunContext{}, scan);
-  CHECK(scan.verdict == std::vector<Verdict>{Verdict::kStatic, Verdict::kDynamic});
 }
 
 TEST_CASE("a point whose height is found anew moves from one map to the other") {
