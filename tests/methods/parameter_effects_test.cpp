@@ -254,8 +254,8 @@ TEST_CASE("raymoval_plus's parameters are without effect where their conditions 
   for (const char* const variant : {"offline", "online"}) {
     check_turned_off(std::string("raymoval_plus:") + variant, tested);
   }
-  CHECK(tested.count("track_width tracks tracks") == 1);
-  CHECK(tested.count("cluster_gap objects objects") == 1);
+  CHECK(tested.count("recent_scans tracks tracks") == 1);
+  CHECK(tested.count("object_points objects objects") == 1);
 }
 
 TEST_CASE("raymoval_plus's parameters act when they are said to", "[slow]") {

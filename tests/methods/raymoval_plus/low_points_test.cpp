@@ -32,32 +32,6 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
   }
 }
 
-TEST_CASE("far away, low points follow what stands higher up and farther aside") {
-  // 30 m away, 1.9 m are 1 m and 0.03 times the range. Beams 2 degrees apart are 1.05 m apart
-  // there, and 0.6 of that are three more columns than the neighbouring column. However far apart
-  // beams are, 20 columns are the most.
-  struct Standing {
-    double range, high, aside;
-    float beams_apart;
-    bool is_followed;
-  };
-  for (const auto& [range, high, aside, beams_apart, is_followed] :
-       {Standing{30.05, 1.85, 0.0, 0.0F, true}, Standing{30.05, 1.95, 0.0, 0.0F, false},
-        Standing{5.05, 1.85, 0.0, 0.0F, false}, Standing{30.05, 0.5, 0.8, 0.0349F, true},
-        Standing{30.05, 0.5, 1.0, 0.0349F, false}, Standing{30.05, 0.5, 0.8, 0.0F, false},
-        Standing{5.05, 0.5, 0.8, 0.0349F, false}, Standing{30.05, 0.5, 4.0, 0.5F, true},
-        Standing{30.05, 0.5, 4.2, 0.5F, false}}) {
-    for (const double side : {-1.0, 1.0}) {
-      Scene scene;
-      scene.maps.steps.elevation = beams_apart;
-      scene.add({range, 0.05, 0.1}, Verdict::kStatic);
-      scene.add({range, 0.05 + side * aside, high}, Verdict::kDynamic);
-      CAPTURE(range, high, aside, side, beams_apart);
-      CHECK((scene.with_low_points()[0] == Verdict::kDynamic) == is_followed);
-    }
-  }
-}
-
 TEST_CASE("what is taken for ground follows what moves above it, if the ground is lower there") {
   // A foot whose points are taken for ground, and a leg above it. By a hundred points of earlier
   // scans the ground is at `base`, by the terrain at 0: a road, or a pavement beside it.
@@ -85,23 +59,9 @@ TEST_CASE("what is taken for ground follows what moves above it, if the ground i
   CHECK(changed.with_low_points()[0] == Verdict::kDynamic);
 }
 
-TEST_CASE("low points follow whatever they reach, whichever of it comes first") {
-  // 16 beams: points up to 9.55 m away reach one column aside, those beyond reach two.
-  const Eigen::Vector3d low(9.59, 0.45, 0.1), near(9.42, 0.05, 0.5), far(9.59, 0.05, 0.5);
-  const std::vector<std::vector<Eigen::Vector3d>> all_above = {{near, far}, {far, near}, {near}};
-  for (const std::vector<Eigen::Vector3d>& above : all_above) {
-    Scene scene;
-    scene.maps.steps.elevation = 0.0349F;
-    scene.add(low, Verdict::kStatic);
-    for (const Eigen::Vector3d& at : above) scene.add(at, Verdict::kDynamic);
-    CHECK(scene.with_low_points()[0] == Verdict::kDynamic);
-  }
-}
-
 namespace {
 
 /// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
-/// @param ground the height of the ground's points around each ground point, metres
 std::vector<int> slow_low_points(const Scene& scene, const Verdicts& before) {
   const LocatedScan& scan = scene.scan;
   const float steps = scene.maps.steps.elevation;

@@ -73,23 +73,6 @@ TEST_CASE("under a roof the ground rises no more than the slope allows") {
   CHECK(height_of(terrain, {5.4, 0.2, 2.0}) == Approx(1.84).margin(0.01));
 }
 
-TEST_CASE("what stands between rings of ground is no ground") {
-  // Returns of the ground end at x = 4 m. The next are of an object from 8 m on, 0.8 m high.
-  std::vector<Eigen::Vector3d> points;
-  for (int x = 0; x < 25; ++x) {
-    if (x >= 10 && x < 20) continue;
-    for (int y = -10; y < 10; ++y) {
-      for (int k = 0; k < 3; ++k) {
-        points.emplace_back(0.4 * x + 0.2, 0.4 * y + 0.2, x < 10 ? 0.0 : 0.8);
-      }
-    }
-  }
-  const Terrain terrain = terrain_of(points);
-  CHECK(height_of(terrain, {3.8, 0.2, 0.0}) == Approx(0.0).margin(0.05));
-  // Eleven columns from the last one of ground, of 0.04 m each.
-  CHECK(height_of(terrain, {8.2, 0.2, 0.8}) == Approx(0.8 - 0.44).margin(0.05));
-}
-
 TEST_CASE(
     "on steep land heights are those above a plane, and things stand on it as on level land") {
   // A box of 2 x 2 m with returns only above half a metre, on land that rises in some direction.

@@ -10,7 +10,7 @@ using namespace raymoval::raymoval_plus_method;
 namespace {
 
 using Scans = std::vector<std::vector<ObjectSummary>>;
-const std::vector<int> kNone, kFirst{0};
+const std::vector<int> kNobody, kFirst{0};
 
 /// A walker of half a metre after `steps` of 0.2 m along x, of 20 points, hit in some scans.
 ObjectSummary walker(int steps, bool is_dynamic, double first_hit, double last_hit) {
@@ -33,33 +33,47 @@ ObjectSummary walking(int scan, bool is_dynamic) {
   return walker(scan, is_dynamic, scan - 1, scan + 1);
 }
 
-/// Makes an object as large as a van of 4 m.
-void make_van(ObjectSummary& object) {
+/// An object as large as a van of 4 m.
+ObjectSummary van(ObjectSummary object) {
   object.low = object.center - Eigen::Vector3d(2.0, 0.8, 0.7);
   object.high = object.center + Eigen::Vector3d(2.0, 0.8, 0.7);
+  return object;
+}
+
+/// Moves an object aside.
+ObjectSummary beside(ObjectSummary object, double y, int cluster) {
+  for (Eigen::Vector3d* const at : {&object.center, &object.low, &object.high}) at->y() += y;
+  object.cluster = cluster;
+  return object;
+}
+
+/// One object in each scan.
+template <class Object>
+Scans scans_of(int count, Object&& object) {
+  Scans scans;
+  for (int i = 0; i < count; ++i) scans.push_back({object(i)});
+  return scans;
 }
 
 /// The clusters that tracks mark. A scan comes every `period` seconds.
-Scans at_times(Scans scans, double period) {
+std::vector<std::vector<int>> marks(Scans scans, double period = 0.1) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     for (ObjectSummary& object : scans[i]) object.time_s = period * static_cast<double>(i);
   }
-  return scans;
-}
-std::vector<std::vector<int>> marks(const Scans& scans, double period = 0.1) {
-  return objects_on_tracks(at_times(scans, period), Parameters{}, RunContext{.threads = 2});
+  return objects_on_tracks(scans, Parameters{}, RunContext{.threads = 2});
 }
 
-/// Somebody who walks for ten scans, waits for thirty and walks on. Hardly a beam passed his place.
-Scans waiting_walker(double first_hit, double last_hit, float passes = 4.0F) {
-  Scans scans;
-  for (int i = 0; i < 50; ++i) {
-    const bool waits = i >= 10 && i < 40;
-    scans.push_back({waits ? walker(10, false, first_hit, last_hit)
-                           : walking(i < 10 ? i : i - 29, true)});
-    if (waits) scans.back()[0].evidence.passes = passes;
-  }
-  return scans;
+/// Whether somebody is marked in scan 25 who walks for ten scans, waits for thirty and walks on.
+bool is_waiting_marked(double first_hit, double last_hit, float passes = 4.0F) {
+  const auto marked = marks(scans_of(50, [&](int i) {
+    if (i < 10 || i >= 40) return walking(i < 10 ? i : i - 29, true);
+    ObjectSummary waiting = walker(10, false, first_hit, last_hit);
+    waiting.evidence.passes = passes;
+    return waiting;
+  }));
+  CHECK(marked[5].empty());  // It is dynamic.
+  for (const std::size_t i : {10U, 39U}) CHECK(marked[i] == marked[25]);
+  return marked[25] == kFirst;
 }
 
 }  // namespace
@@ -77,183 +91,135 @@ TEST_CASE("an object is dynamic with enough passes a point, or fewer and a contr
 
 TEST_CASE("an object is followed past its last evidence and before its first, a standing one not") {
   for (const bool backward : {false, true}) {
+    const auto is_known = [&](int i) { return backward ? i > 2 : i < 7; };
     Scans scans;
     for (int i = 0; i < 10; ++i) {
-      const int time = backward ? 9 - i : i;
-      scans.push_back({walking(i, time < 7), walker(0, false, 0, 9)});
-      scans.back()[1].center.y() += 5.0;
-      scans.back()[1].cluster = 1;
+      scans.push_back({walking(i, is_known(i)), beside(walker(0, false, 0, 9), 5.0, 1)});
     }
     const auto marked = marks(scans);
     for (int i = 0; i < 10; ++i) {
-      const bool is_known = (backward ? 9 - i : i) < 7;
-      CHECK(marked[static_cast<std::size_t>(i)] == (is_known ? kNone : kFirst));
+      CHECK(marked[static_cast<std::size_t>(i)] == (is_known(i) ? kNobody : kFirst));
     }
-    if (backward) continue;
-    // Scan by scan: the walker of scan 7 is marked by its own past.
-    ObjectTracker tracker{Parameters{}};
-    for (std::size_t i = 0; i < 8; ++i) tracker.follow(i, at_times(scans, 0.1)[i]);
-    CHECK(marked_in(7, tracker.finish(), Parameters{}) == kFirst);
     // It was hit for far longer than half a metre at 0.2 m a scan explains: another object.
     for (auto& objects : scans) objects[0].hits = 60.0F, objects[0].last_hit = 60.0;
-    CHECK(marks(scans)[9].empty());
+    for (const auto& clusters : marks(scans)) CHECK(clusters.empty());
   }
 }
 
 TEST_CASE("what moves, stops and leaves is marked while it stands") {
   // It is in its place, within its width of 0.71 m, from scan 7 to 42. Voxels may be hit 3 scans
   // and a quarter of these 36 before and after.
-  struct Case {
-    double first, last;
-    bool is_marked;
-  };
-  for (const auto& [first, last, is_marked] :
-       {Case{10, 39, true}, Case{-5, 54, true}, Case{-6, 39, false}, Case{10, 55, false}}) {
-    const auto marked = marks(waiting_walker(first, last));
-    CAPTURE(first, last);
-    CHECK(marked[5].empty());  // It is dynamic.
-    for (const std::size_t i : {10U, 25U, 39U}) CHECK(marked[i] == (is_marked ? kFirst : kNone));
-  }
+  CHECK(is_waiting_marked(10, 39));
+  CHECK(is_waiting_marked(-5, 54));
+  CHECK_FALSE(is_waiting_marked(-6, 39));
+  CHECK_FALSE(is_waiting_marked(10, 55));
 }
 
 TEST_CASE("what stood always is never marked") {
   // Ten scans hit it, and fewer than a fifth of a pass a point is outside.
-  CHECK(marks(waiting_walker(10, 39, 4.0F))[25] == kFirst);
-  CHECK(marks(waiting_walker(10, 39, 3.9F))[25].empty());
-  CHECK(marks(waiting_walker(12, 21, 3.9F))[25].empty());
-  CHECK(marks(waiting_walker(12, 20, 3.9F))[25] == kFirst);  // Nine scans.
+  CHECK_FALSE(is_waiting_marked(10, 39, 3.9F));
+  CHECK_FALSE(is_waiting_marked(12, 21, 3.9F));
+  CHECK(is_waiting_marked(12, 20, 3.9F));  // Nine scans.
 }
 
 TEST_CASE("two that cross are told apart, and what they pass stays") {
   // They meet at x = 1.8 m, 0.5 m beside each other. A pole stands between their ways.
+  const auto is_known = [](int i) { return i < 7 || i > 12; };
   Scans scans;
   for (int i = 0; i < 20; ++i) {
-    const bool is_known = i < 7 || i > 12;
-    std::vector<ObjectSummary> objects{walking(i, is_known), walking(18 - i, is_known),
-                                       walker(9, false, 0, 19)};
-    objects[1].first_hit = i - 1;
-    objects[1].last_hit = i + 1;
-    objects[2].evidence.passes = 0.0F;
-    for (int k = 0; k < 3; ++k) {
-      objects[static_cast<std::size_t>(k)].cluster = k;
-      for (const auto at : {&ObjectSummary::center, &ObjectSummary::low, &ObjectSummary::high}) {
-        (objects[static_cast<std::size_t>(k)].*at).y() += k == 1 ? 0.5 : k == 2 ? 0.25 : 0.0;
-      }
-    }
-    scans.push_back(objects);
+    scans.push_back({walking(i, is_known(i)),
+                     beside(walker(18 - i, is_known(i), i - 1, i + 1), 0.5, 1),
+                     beside(walker(9, false, 0, 19), 0.25, 2)});
+    scans.back()[2].evidence.passes = 0.0F;
   }
   const auto marked = marks(scans);
-  for (std::size_t i = 0; i < 20; ++i) {
-    CHECK(marked[i] == (i < 7 || i > 12 ? kNone : std::vector<int>{0, 1}));
+  for (int i = 0; i < 20; ++i) {
+    CHECK(marked[static_cast<std::size_t>(i)] == (is_known(i) ? kNobody : std::vector{0, 1}));
   }
 }
 
 TEST_CASE("a track may miss two scans, or ten while its object stands") {
-  for (const int missed : {2, 3}) {
-    Scans scans;
-    for (int i = 0; i < 6; ++i) scans.push_back({walking(i, true)});
-    scans.resize(static_cast<std::size_t>(6 + missed));
-    scans.push_back({walking(6 + missed, false)});
-    CHECK(marks(scans).back() == (missed == 2 ? kFirst : kNone));
+  for (const std::size_t missed : {2U, 3U}) {
+    Scans scans = scans_of(9, [](int i) { return walking(i, i < 6); });
+    std::fill_n(scans.begin() + 6, missed, std::vector<ObjectSummary>{});
+    scans.resize(7 + missed, {walking(9, false)});
+    CHECK(marks(scans).back() == (missed == 2 ? kFirst : kNobody));
   }
   for (const int hidden : {10, 11}) {  // Stands for 20 scans, hidden in some of them, and walks.
-    Scans scans(27);
-    for (int i = 0; i < 27; ++i) {
-      if (i < 16 && i >= 16 - hidden) continue;
-      scans[static_cast<std::size_t>(i)] = {i < 20 ? walker(0, false, 0, 19)
-                                                   : walker(i - 19, true, i, i)};
-    }
+    Scans scans = scans_of(27, [](int i) {
+      return i < 20 ? walker(0, false, 0, 19) : walker(i - 19, true, i, i);
+    });
+    for (auto scan = scans.begin() + 16 - hidden; scan != scans.begin() + 16; ++scan) scan->clear();
     const auto marked = marks(scans);
     // Of a track that ends in scan 16, the voxels are hit too long before.
-    for (const std::size_t i : {2U, 18U}) CHECK(marked[i] == (hidden == 10 ? kFirst : kNone));
+    for (const std::size_t i : {2U, 18U}) CHECK(marked[i] == (hidden == 10 ? kFirst : kNobody));
   }
 }
 
-TEST_CASE("a track needs three dynamic objects, a quarter of those that do not stand") {
+TEST_CASE("a track needs three dynamic objects, a quarter of those that go on or of all") {
   for (const int dynamic : {2, 3}) {
-    Scans scans;
-    for (int i = 0; i < 8; ++i) scans.push_back({walking(i, i < dynamic)});
-    CHECK(marks(scans)[7] == (dynamic == 3 ? kFirst : kNone));
+    const Scans scans = scans_of(8, [&](int i) { return walking(i, i < dynamic); });
+    CHECK(marks(scans)[7] == (dynamic == 3 ? kFirst : kNobody));
   }
-  for (const int others : {9, 10}) {
-    Scans scans;
-    for (int i = 0; i < 3 + others; ++i) scans.push_back({walking(i, i < 3)});
-    CHECK(marks(scans)[5] == (others == 9 ? kFirst : kNone));
-  }
-}
-
-TEST_CASE("what came or leaves, and stands else, is marked if a quarter of it is dynamic") {
-  // Voxels may be hit 3 scans and a quarter of its scans before and after.
-  struct Case {
-    int scans;
-    double first;
-    bool is_marked;
-  };
-  for (const auto& [count, first, is_marked] :
-       {Case{12, 0, true}, Case{12, -6, true}, Case{12, -7, false}, Case{13, 0, false}}) {
-    Scans scans;
-    for (int i = 0; i < count; ++i) scans.push_back({walker(0, i < 3, first, count - 1)});
-    CAPTURE(count, first);
-    CHECK(marks(scans)[8] == (is_marked ? kFirst : kNone));
+  for (const int count : {12, 13}) {
+    const Scans walks = scans_of(count, [](int i) { return walking(i, i < 3); });
+    CHECK(marks(walks)[5] == (count == 12 ? kFirst : kNobody));
+    // What stands may be hit 3 scans and a quarter of its scans before and after.
+    for (const double first : {-6.0, -7.0}) {
+      const Scans came = scans_of(count, [&](int i) { return walker(0, i < 3, first, 11); });
+      CHECK(marks(came)[8] == (count == 12 && first == -6.0 ? kFirst : kNobody));
+    }
   }
 }
 
 TEST_CASE("what waits is in its place however much of it is in sight") {
-  // A van waits for 40 scans. At first 2.8 m of it are visible, then less and less behind its
-  // front, until that is 0.4 m deep; then it drives off. Its centre shifts by 1.2 m meanwhile.
-  Scans scans;
-  for (int i = 0; i < 50; ++i) {
+  // At first 2.8 m of a van are visible, then less and less behind its front, until that is 0.4 m
+  // deep; then it drives off. Its centre shifts by 1.2 m meanwhile.
+  const auto marked = marks(scans_of(50, [](int i) {
     const double front = 0.3 * std::max(i - 39, 0), depth = std::max(2.8 - 0.1 * i, 0.4);
-    ObjectSummary van = walker(0, i >= 40, 0, 39);
-    van.low.x() = front - depth;
-    van.high.x() = front;
-    van.center.x() = front - depth / 2.0;
-    van.low.y() = -0.9;
-    van.high.y() = 0.9;
-    scans.push_back({van});
-  }
-  const auto marked = marks(scans);
+    ObjectSummary seen = walker(0, i >= 40, 0, 39);
+    seen.low = {front - depth, -0.9, 0.3};
+    seen.high = {front, 0.9, 1.7};
+    seen.center.x() = front - depth / 2.0;
+    return seen;
+  }));
   for (std::size_t i = 0; i < 40; ++i) CHECK(marked[i] == kFirst);
 }
 
 TEST_CASE("a parked car stays whose track something much smaller takes over") {
   // A walker of 0.71 m comes in ten scans; the object that stands for the next 40 scans is 1.56 or
   // 1.92 m wide. 1.5 times 0.71 m and 0.6 m are 1.66 m.
-  for (const bool is_larger : {false, true}) {
-    Scans scans;
-    for (int i = 0; i < 50; ++i) {
-      scans.push_back({i < 10 ? walking(i, true) : walker(10, false, 10, 49)});
-      if (i < 10) continue;
-      ObjectSummary& standing = scans.back()[0];
-      const Eigen::Vector3d half =
-          is_larger ? Eigen::Vector3d(0.75, 0.6, 0.7) : Eigen::Vector3d(0.6, 0.5, 0.7);
-      standing.low = standing.center - half;
-      standing.high = standing.center + half;
-    }
-    const auto marked = marks(scans);
-    for (std::size_t i = 10; i < 50; ++i) CHECK(marked[i] == (is_larger ? kNone : kFirst));
+  for (const auto& [x, y, stays] : {std::tuple{0.6, 0.5, false}, std::tuple{0.75, 0.6, true}}) {
+    const auto marked = marks(scans_of(50, [x = x, y = y](int i) {
+      ObjectSummary object = i < 10 ? walking(i, true) : walker(10, false, 10, 49);
+      if (i >= 10) object.low.head<2>() = object.center.head<2>() - Eigen::Vector2d(x, y);
+      if (i >= 10) object.high.head<2>() = object.center.head<2>() + Eigen::Vector2d(x, y);
+      return object;
+    }));
+    for (std::size_t i = 10; i < 50; ++i) CHECK(marked[i] == (stays ? kNobody : kFirst));
   }
 }
 
 TEST_CASE("an object that changed its size is another one") {
-  Scans scans;
-  for (int i = 0; i < 10; ++i) {
-    scans.push_back({walking(i, i < 7)});
-    if (i >= 7) scans.back()[0].high.z() += 2.0;  // 2 m more than 0.6 m + 0.3 x 3.4 m.
+  for (const double taller : {1.4, 1.5}) {  // 0.6 m and 0.3 times 2.8 m or 2.9 m.
+    const auto marked = marks(scans_of(10, [&](int i) {
+      ObjectSummary object = walking(i, i < 7);
+      if (i >= 7) object.high.z() += taller;
+      return object;
+    }));
+    CHECK(marked[7] == (taller < 1.45 ? kFirst : kNobody));
   }
-  CHECK(marks(scans)[7].empty());
 }
 
 TEST_CASE("a fast object is followed from its first step on, up to 40 m/s") {
   // A van of 4 m drives 3.9 or 4.1 m a scan of 0.1 s.
   for (const double step : {3.9, 4.1}) {
-    Scans scans;
-    for (int i = 0; i < 8; ++i) {
-      scans.push_back({walker(0, i < 5, i, i)});
-      scans.back()[0].center.x() = 10.0 + step * i;
-      make_van(scans.back()[0]);
-    }
-    CHECK(marks(scans).back() == (step < 4.0 ? kFirst : kNone));
+    Scans scans = scans_of(8, [&](int i) {
+      ObjectSummary object = walker(0, i < 5, i, i);
+      object.center.x() = step * i;
+      return van(object);
+    });
+    CHECK(marks(scans).back() == (step < 4.0 ? kFirst : kNobody));
     CHECK(marks(scans, 0.2).back() == kFirst);
     // A place that many scans hit was occupied before, so it is no fast object.
     for (auto& objects : scans) objects[0].hits = 6.0F;
@@ -262,16 +228,13 @@ TEST_CASE("a fast object is followed from its first step on, up to 40 m/s") {
 }
 
 TEST_CASE("what brakes between scans half a second apart is followed") {
-  // A van drives 2 m per scan along x, and is stationary from the fifth scan on at a place that
-  // hardly a beam passed. It is expected 2 m ahead then, which is less than
-  // 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m, but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
+  // A van drives 2 m a scan, and stands from the fifth scan on. It is expected 2 m ahead then, less
+  // than 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m, but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
   for (const double period : {0.1, 0.5}) {
-    Scans scans;
-    for (int i = 0; i < 8; ++i) {
-      scans.push_back({walker(10 * std::min(i, 4), i < 5, i < 5 ? i : 4, i < 5 ? i : 7)});
-      make_van(scans.back()[0]);
-    }
-    CHECK(marks(scans, period)[7] == (period == 0.5 ? kFirst : kNone));
+    const auto marked = marks(scans_of(8, [](int i) {
+      return van(i < 5 ? walker(10 * i, true, i, i) : walker(40, false, 4, 7));
+    }), period);
+    CHECK(marked[7] == (period == 0.5 ? kFirst : kNobody));
   }
 }
 
@@ -279,22 +242,18 @@ TEST_CASE("what passes is hit for as long as others stood there, if these go") {
   // A walker passes the place where a van is stationary from scan 20 to 45. Then the van drives
   // off, or stays. While the walker is at that place, his points are not dynamic.
   for (const bool leaves : {false, true}) {
-    Scans scans;
-    for (int i = 0; i < 55; ++i) {
-      const bool drives = leaves && i > 45;
-      ObjectSummary van = drives ? walker(11 + 3 * (i - 45), true, i, i) : walker(11, false, 10, 45);
-      make_van(van);
-      scans.push_back({});
-      if (i < 15) scans.back() = {walking(i, i < 10)};
-      if (i >= 10 && i < 15) scans.back()[0].last_hit = 45.0, scans.back()[0].hits = 30.0F;
-      if (i >= 20) scans.back() = {van};
+    Scans scans = scans_of(55, [&](int i) {
+      return van(leaves && i > 45 ? walker(11 + 3 * (i - 45), true, i, i)
+                                  : walker(11, false, 10, 45));
+    });
+    for (int i = 0; i < 20; ++i) scans[static_cast<std::size_t>(i)] = {walking(i, i < 10)};
+    for (std::size_t i = 15; i < 20; ++i) scans[i].clear();
+    for (const float hits : {30.0F, 60.0F}) {  // 60 are too many.
+      for (std::size_t i = 10; i < 15; ++i) scans[i][0].last_hit = 45.0, scans[i][0].hits = hits;
+      const auto marked = marks(scans);
+      CHECK(marked[30] == (leaves ? kFirst : kNobody));
+      CHECK(marked[11] == (leaves && hits < 60.0F ? kFirst : kNobody));
     }
-    const auto expected = leaves ? kFirst : kNone;
-    CHECK(marks(scans)[30] == expected);
-    CHECK(marks(scans)[11] == expected);
-    // For longer than that, something else is there.
-    for (std::size_t i = 10; i < 15; ++i) scans[i][0].hits = 60.0F;
-    CHECK(marks(scans)[11].empty());
   }
 }
 

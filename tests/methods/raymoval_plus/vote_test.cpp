@@ -35,13 +35,9 @@ class Row {
 
 TEST_CASE("a firm voxel keeps its decision in a crowd") {
   // A pole at cell 0, dynamic voxels at the two on either side: 4 of 5 votes.
-  struct Pole {
-    int hits, passes;
-    Verdict verdict;
-  };
   for (const auto& [hits, passes, verdict] :
-       {Pole{10, 0, Verdict::kStatic}, Pole{10, 1, Verdict::kStatic},
-        Pole{10, 2, Verdict::kDynamic}, Pole{9, 0, Verdict::kDynamic}}) {
+       {std::tuple{10, 1, Verdict::kStatic}, std::tuple{10, 2, Verdict::kDynamic},
+        std::tuple{9, 0, Verdict::kDynamic}}) {
     Row row;
     for (const int cell : {-2, -1, 1, 2}) row.add(cell, Verdict::kDynamic);
     row.add(0, Verdict::kStatic, hits, passes);
@@ -49,17 +45,6 @@ TEST_CASE("a firm voxel keeps its decision in a crowd") {
     CHECK(row.verdict(0) == verdict);
     CHECK(row.verdict(1) == Verdict::kDynamic);
   }
-}
-
-TEST_CASE("neighbours outvote a voxel within three cells and no farther") {
-  Row row;
-  for (const int cell : {0, 1, 2, 3}) row.add(cell, Verdict::kDynamic);
-  row.add(6, Verdict::kStatic);
-  row.add(10, Verdict::kUndecided);
-  vote(Parameters{}, RunContext{}, row.map);
-  CHECK(row.verdict(0) == Verdict::kDynamic);
-  CHECK(row.verdict(6) == Verdict::kDynamic);  // One dynamic voxel (3) of two within 3 cells: half.
-  CHECK(row.verdict(10) == Verdict::kUndecided);
 }
 
 TEST_CASE("however small the share is, a voxel without a dynamic one around it stays") {
@@ -97,9 +82,7 @@ TEST_CASE("votes are those of a count over all voxels, whatever the radius") {
     const Eigen::Vector3d point(place(random), place(random), place(random));
     const auto voxel = points.add(0.2 * (point + Eigen::Vector3d::Constant(0.5)));
     const int k = kind(random);
-    map.set_decision(voxel, k == 0   ? Verdict::kUndecided
-                            : k == 1 ? Verdict::kDynamic
-                                     : Verdict::kStatic);
+    map.set_decision(voxel, k < 3 ? Verdict{static_cast<std::uint8_t>(k)} : Verdict::kStatic);
     map.evidence(voxel).hits = i % 7 == 0 ? 10 : 9;  // Some are firm.
   }
   const int radius = GENERATE(1, 2, 3, 4, 5, 8);
