@@ -199,9 +199,10 @@ struct AllBeams {
       const double nearest = u.dot(inverse * m) / u.dot(inverse * u);
       const Eigen::Vector3d off = nearest * u - m;
       const double aside = off.dot(inverse * off), behind = end.norm() - nearest;
-      const double deep = shape.behind == 0.0F ? 1e9
-                                               : (normal.dot(m) > 0.0 ? 1.0 : -1.0) *
-                                                         normal.dot(end - m) - shape.behind;
+      const double deep =
+          shape.behind == 0.0F
+              ? 1e9
+              : (normal.dot(m) > 0.0 ? 1.0 : -1.0) * normal.dot(end - m) - shape.behind;
       const double near = 0.2 + slope - std::abs(behind);
       const double far = std::min(behind - 0.25 - slope, deep);
       hit |= aside < 1.0 - kSure && near > kSure;
@@ -222,8 +223,8 @@ VoxelShape random_shape(std::mt19937& random) {
   Eigen::Vector3d deviations(deviation(random), deviation(random), deviation(random));
   const bool is_flat = random() % 2 == 0;
   if (is_flat) deviations.x() = 0.04;
-  const Eigen::Matrix3d covariance =
-      axes * deviations.cwiseAbs2().asDiagonal() * axes.transpose(), inverse = covariance.inverse();
+  const Eigen::Matrix3d covariance = axes * deviations.cwiseAbs2().asDiagonal() * axes.transpose(),
+                        inverse = covariance.inverse();
   const auto f = [](double value) { return static_cast<float>(value); };
   VoxelShape shape{f(inverse(0, 0)), f(inverse(1, 1)), f(inverse(2, 2)),
                    f(inverse(0, 1)), f(inverse(0, 2)), f(inverse(1, 2))};
@@ -240,17 +241,17 @@ VoxelShape random_shape(std::mt19937& random) {
 TEST_CASE("observations are those of a test of all beams, however the sensor is turned") {
   // The same beams in the world, of a sensor with level rows, with rows that stand upright, and
   // turned by any angle. Beams are given to the image in the axes of the sensor.
-  const auto [angle, axis] =
-      GENERATE(std::pair(0.0, Eigen::Vector3d(0, 0, 1)), std::pair(90.0, Eigen::Vector3d(1, 0, 0)),
-               std::pair(90.0, Eigen::Vector3d(0, 0, 1)), std::pair(77.0, Eigen::Vector3d(1, 2, 3)));
+  const auto [angle, axis] = GENERATE(
+      std::pair(0.0, Eigen::Vector3d(0, 0, 1)), std::pair(90.0, Eigen::Vector3d(1, 0, 0)),
+      std::pair(90.0, Eigen::Vector3d(0, 0, 1)), std::pair(77.0, Eigen::Vector3d(1, 2, 3)));
   SensorModel sensor = wide_sensor();
   sensor.elevation_min = -90.0 * kDegree;
   sensor.elevation_max = 90.0 * kDegree;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(-1.0, 1.0), range(2.0, 12.0), place(2.5, 9.0);
   Scan scan;
-  scan.T_world_sensor = Eigen::Translation3d(3.0, -2.0, 0.5) *
-                        Eigen::AngleAxisd(angle * kDegree, axis.normalized());
+  scan.T_world_sensor =
+      Eigen::Translation3d(3.0, -2.0, 0.5) * Eigen::AngleAxisd(angle * kDegree, axis.normalized());
   const auto random_direction = [&] {
     return Eigen::Vector3d(number(random), number(random), number(random)).normalized();
   };
@@ -271,7 +272,8 @@ TEST_CASE("observations are those of a test of all beams, however the sensor is 
     if (std::abs(m.z()) > 0.95 * m.norm()) continue;  // Columns end above and below the sensor.
     const AllBeams all(scan, places[v], shapes[v]);
     CAPTURE(v, all.hit, all.may_hit, all.passed, all.may_pass);
-    const Observation seen = observed[v] == Observation::kOpen ? Observation::kUnknown : observed[v];
+    const Observation seen =
+        observed[v] == Observation::kOpen ? Observation::kUnknown : observed[v];
     CHECK((seen == Observation::kHit ? all.may_hit : !all.hit));
     if (!all.may_hit) CHECK((seen == Observation::kPassed ? all.may_pass : !all.passed));
     const bool is_sure = all.hit || (!all.may_hit && all.passed == all.may_pass);

@@ -24,8 +24,10 @@ TEST_CASE("low points follow what stands above them, if two thirds of that agree
     for (int k = 0; k < 100; ++k) scene.add({5.05, 0.05, 1.17 + 0.01 * k}, Verdict::kDynamic);
     const Verdicts decided = scene.with_low_points();
     // With half of it they are as they were.
-    CHECK(std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic) ==
-          (dynamic == 3 ? 0 : dynamic == 5 ? 2 : 3));
+    CHECK(std::count(decided.begin(), decided.begin() + 3, Verdict::kDynamic) == (dynamic == 3 ? 0
+                                                                                  : dynamic == 5
+                                                                                      ? 2
+                                                                                      : 3));
     CHECK(std::equal(decided.begin() + 3, decided.end(), scene.scan.verdict.begin() + 3));
     scene.parameters.low_points = false;
     CHECK(scene.with_low_points() == scene.scan.verdict);
@@ -78,7 +80,8 @@ std::vector<int> slow_low_points(const Scene& scene, const Verdicts& before) {
     if (!is_ground && scan.height[k] >= 0.3F) continue;
     const double mean = is_ground ? scene.maps.ground.centroid(scan.ground_voxel[k]).z() : 0.0;
     // A point is counted at the middle of a part of its cell, of which there are 256.
-    if (is_ground && std::floor(scan.height[k] * 640.0) / 640.0 + 0.5 / 640.0 - mean < 0.01) continue;
+    if (is_ground && std::floor(scan.height[k] * 640.0) / 640.0 + 0.5 / 640.0 - mean < 0.01)
+      continue;
     const int reach = 1 + static_cast<int>(scan.scan.points[k].norm() * 0.6F * steps / 0.2F);
     std::array<int, 2> sum{};
     for (const auto& [at, points] : standing) {

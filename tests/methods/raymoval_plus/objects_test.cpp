@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/objects/objects.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "methods/raymoval_plus/objects/point_evidence.h"
@@ -25,35 +26,21 @@ TEST_CASE("points of a scan that are near each other and above the ground are a 
   CHECK(scene.objects().empty());
 }
 
-TEST_CASE("a cluster is dynamic with a pass outside a point") {
-  // Of 20 points whose voxels are static, some have two passes outside and one has one.
-  for (const int passes : {19, 20}) {
-    Scene scene;
-    scene.add_column(5.05, 0.05, 0.41, passes / 2, Verdict::kStatic, {.passes_outside = 2.0F});
-    for (int k = passes / 2; k < 20; ++k) {
-      scene.add({5.05, 0.05, 0.41 + 0.2 * k}, Verdict::kStatic,
-                {.passes_outside = k == 9 && passes == 19 ? 1.0F : 0.0F});
-    }
-    CHECK(scene.dynamic(0, 20) == (passes == 20 ? 20 : 0));
-    CHECK(scene.dynamic(0, 20, {0}) == 20);  // A track marked it.
-    scene.parameters.objects = false;
-    CHECK(scene.dynamic(0, 20, {}) == 0);
-  }
-}
-
-TEST_CASE("a cluster with a fifth of a pass a point is dynamic if its voxels are contradicted") {
-  // One pass before and hits: 1 / (1 + 2 + 1) = 0.25 or 1 / (1 + 5 + 1) = 0.14.
-  struct Case {
-    float passes;
-    std::uint32_t hits;
-    bool goes;
-  };
-  for (const auto& [passes, hits, goes] : {Case{0.25F, 2, true}, Case{0.25F, 5, false},
-                                           Case{0.15F, 2, false}, Case{0.95F, 5, false}}) {
+TEST_CASE("a cluster goes with a pass outside a point, or fewer and contradicted voxels") {
+  // Of 20 points, each with one pass before and some hits: a contradiction of 1 / (1 + 2 + 1) or
+  // 1 / (1 + 5 + 1).
+  for (const auto& [passes, hits, goes] :
+       {std::tuple{1.0F, 5U, true}, std::tuple{0.95F, 5U, false}, std::tuple{0.25F, 2U, true},
+        std::tuple{0.25F, 5U, false}, std::tuple{0.15F, 2U, false}}) {
     Scene scene;
     scene.add_column(5.05, 0.05, 0.41, 20, Verdict::kStatic,
                      {.passes_outside = passes, .first = 1, .last = hits, .passes_before = 1});
     CHECK(scene.dynamic(0, 20) == (goes ? 20 : 0));
+    CHECK(scene.dynamic(0, 20, {0}) == 20);  // A track marked it.
+    scene.parameters.object_points = 21;
+    CHECK(scene.dynamic(0, 20) == 0);
+    scene.parameters.objects = false;
+    CHECK(scene.dynamic(0, 20, {0}) == 0);
   }
 }
 
@@ -66,27 +53,15 @@ TEST_CASE("a cluster stays as a whole if a tenth of it is dynamic, and else keep
   }
 }
 
-TEST_CASE("a cluster of too few points is no object") {
-  Scene scene;
-  scene.add_column(5.05, 0.05, 0.41, 3, Verdict::kStatic, {.passes_outside = 4.0F});
-  CHECK(scene.dynamic(0, 3) == 3);
-  scene.parameters.object_points = 4;
-  CHECK(scene.dynamic(0, 3) == 0);
-}
-
 TEST_CASE("what stands beside something that goes keeps its points, if it is half of the cluster") {
   // 30 points of somebody who came in scan 40, and a pole that stood always, in one cluster. Even
   // if a track marks it.
-  struct Pole {
-    int points;
-    Scene::Known known;
-    bool stays;
-  };
+  using Known = Scene::Known;
   for (const auto& [points, known, stays] :
-       {Pole{30, {.last = 100}, true}, Pole{29, {.last = 100}, false},
-        Pole{30, {.first = 92, .last = 100}, false},                  // Nine hits.
-        Pole{30, {.passes_outside = 0.5F, .last = 100}, false},       // More than 0.2 a voxel.
-        Pole{30, {.passes_outside = 1.0F, .last = 100}, false}}) {
+       {std::tuple{30, Known{.last = 100}, true}, std::tuple{29, Known{.last = 100}, false},
+        std::tuple{30, Known{.first = 92, .last = 100}, false},  // Nine hits.
+        // More than 0.2 a voxel.
+        std::tuple{30, Known{.passes_outside = 0.5F, .last = 100}, false}}) {
     Scene scene;
     for (int k = 0; k < 3; ++k) {
       scene.add_column(5.05, 0.05 + 0.2 * k, 0.41, 10, Verdict::kDynamic,
@@ -105,15 +80,11 @@ TEST_CASE("what stands beside something that goes keeps its points, if it is hal
 
 TEST_CASE("something that moves goes out of a static cluster of a thousand points") {
   // A wall, and ten points before it.
-  struct Case {
-    int columns;
-    float passes;
-    Verdict verdict;
-    bool goes;
-  };
   for (const auto& [columns, passes, verdict, goes] :
-       {Case{99, 2.0F, Verdict::kDynamic, true}, Case{98, 2.0F, Verdict::kDynamic, false},
-        Case{99, 1.5F, Verdict::kDynamic, false}, Case{99, 2.0F, Verdict::kStatic, false}}) {
+       {std::tuple{99, 2.0F, Verdict::kDynamic, true},
+        std::tuple{98, 2.0F, Verdict::kDynamic, false},
+        std::tuple{99, 1.5F, Verdict::kDynamic, false},
+        std::tuple{99, 2.0F, Verdict::kStatic, false}}) {
     Scene scene;
     for (int n = 0; n < columns; ++n) {
       scene.add_column(5.25, 0.2 * n - 9.85, 0.41, 10, Verdict::kStatic, {.last = 100});
@@ -129,21 +100,16 @@ TEST_CASE("something that moves goes out of a static cluster of a thousand point
 TEST_CASE("a fragment goes with what goes beside it") {
   // An object of 6 points at x = 5.05 m, y = 0.05 m, and beside it some points that nothing passed.
   // The reach is 2.5 x (0.3 m + 0.01 x their range), 0.881 m at 5.22 m.
-  for (const double apart : {0.6, 0.86, 0.90}) {
-    for (const int points : {3, 4}) {  // Four are an object of their own.
-      for (const bool goes : {true, false}) {
-        Scene scene;
-        scene.add_column(5.05, 0.05, 0.45, 6, Verdict::kStatic,
-                         {.passes_outside = goes ? 1.0F : 0.0F});
-        for (int k = 0; k < points; ++k) {
-          scene.add({5.05, 0.05 + apart, 1.0 + 0.05 * k}, Verdict::kStatic);
-        }
-        const bool is_fragment = points == 3 && apart < 0.9;
-        CHECK(scene.dynamic(0, 6) == (goes ? 6 : 0));
-        CHECK(scene.dynamic(6, 6 + points) == (goes && is_fragment ? 3 : 0));
-        CHECK(scene.dynamic(6, 6 + points, {0}) == (is_fragment ? 3 : 0));
-      }
+  for (const auto& [apart, points, goes_along] :
+       {std::tuple{0.6, 3, true}, std::tuple{0.86, 3, true}, std::tuple{0.9, 3, false},
+        std::tuple{0.6, 4, false}}) {  // Four are an object of their own.
+    Scene scene;
+    scene.add_column(5.05, 0.05, 0.45, 6, Verdict::kStatic, {});
+    for (int k = 0; k < points; ++k) {
+      scene.add({5.05, 0.05 + apart, 1.0 + 0.05 * k}, Verdict::kStatic);
     }
+    CHECK(scene.dynamic(0, 6 + points) == 0);
+    CHECK(scene.dynamic(0, 6 + points, {0}) == (goes_along ? 9 : 6));
   }
 }
 
@@ -196,16 +162,13 @@ TEST_CASE("what tracks get of a cluster is its box, its mean and the scans that 
 TEST_CASE("the reason for a verdict is the step that made it") {
   // Eight voxels, and three of the ground: whether it was observed as free, then the result of the
   // vote, of the objects, and of the low points.
-  struct Story {
-    bool seen_through, voted, object, removed;
-    std::size_t reason;
+  const std::vector<std::array<std::uint8_t, 5>> stories{
+      {0, 0, 0, 0, 0}, {1, 1, 1, 1, 2}, {0, 1, 1, 1, 3}, {1, 0, 0, 0, 4},
+      {1, 0, 1, 1, 5}, {1, 1, 0, 0, 6}, {0, 0, 0, 1, 7}, {1, 1, 1, 0, 8},
+      {0, 0, 0, 0, 1}, {1, 0, 0, 0, 1}, {1, 1, 1, 1, 2}};
+  const auto verdict = [](int dynamic) {
+    return dynamic == 1 ? Verdict::kDynamic : Verdict::kStatic;
   };
-  const std::vector<Story> stories{
-      {false, false, false, false, 0}, {true, true, true, true, 2},   {false, true, true, true, 3},
-      {true, false, false, false, 4},  {true, false, true, true, 5},  {true, true, false, false, 6},
-      {false, false, false, true, 7},  {true, true, true, false, 8},  {false, false, false, false, 1},
-      {true, false, false, false, 1},  {true, true, true, true, 2}};
-  const auto verdict = [](bool dynamic) { return dynamic ? Verdict::kDynamic : Verdict::kStatic; };
   EvidenceMaps maps{Parameters{}};
   SegmentedScan scan;
   Verdicts by_objects, decided;
@@ -215,18 +178,17 @@ TEST_CASE("the reason for a verdict is the step that made it") {
     const VoxelIndex cell(static_cast<int>(k), 0, 0);
     EvidenceMap& map = is_ground ? maps.ground : maps.standing;
     const auto voxel = map.add(cell, 0, is_ground ? ground_cursor : cursor);
-    map.set_decision(voxel, verdict(stories[k].seen_through));
+    map.set_decision(voxel, verdict(stories[k][0]));
     scan.voxel.push_back(is_ground ? EvidenceMap::kNone : voxel);
     scan.ground_voxel.push_back(is_ground ? voxel : EvidenceMap::kNone);
-    scan.verdict.push_back(verdict(stories[k].voted));
-    by_objects.push_back(verdict(stories[k].object));
-    decided.push_back(verdict(stories[k].removed));
+    scan.verdict.push_back(verdict(stories[k][1]));
+    by_objects.push_back(verdict(stories[k][2]));
+    decided.push_back(verdict(stories[k][3]));
   }
   const auto reasons = reasons_for(scan, maps, by_objects, decided);
-  for (std::size_t k = 0; k < stories.size(); ++k) CHECK(reasons[k] == stories[k].reason);
-  REQUIRE(reason_sentences().size() == 9);
-  CHECK(reason_sentences()[1] == "it is ground, or was when its scan came");
-  CHECK(reason_sentences()[8] == "what stands above it stays");
+  for (std::size_t k = 0; k < stories.size(); ++k) CHECK(reasons[k] == stories[k][4]);
+  CHECK(reason_sentences().at(1) == "it is ground, or was when its scan came");
+  CHECK(reason_sentences().at(8) == "what stands above it stays");
 }
 
 TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
@@ -235,8 +197,8 @@ TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
   const std::uint32_t passed = maps.standing.add({0, 0, 2}, 0, cursor);
   const std::uint32_t untouched = maps.standing.add({9, 9, 2}, 0, cursor);
   const std::uint32_t false_ground = maps.ground.add({5, 5, 0}, 0, ground_cursor);
-  maps.standing.evidence(passed) = evidence_of("ppp");         // 3 of 3 + 1.
-  maps.ground.evidence(false_ground) = evidence_of("pppp");    // 4 of 4 + 1.
+  maps.standing.evidence(passed) = evidence_of("ppp");       // 3 of 3 + 1.
+  maps.ground.evidence(false_ground) = evidence_of("pppp");  // 4 of 4 + 1.
   SegmentedScan scan;
   constexpr std::uint32_t kNone = EvidenceMap::kNone;
   scan.scan.points.resize(6);

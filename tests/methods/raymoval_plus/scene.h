@@ -67,8 +67,7 @@ struct Scene {
     scan.ground_voxel.back() = see_ground(point);
   }
   /// Points in a column above (x, y), one in each voxel, from `low` metres upward.
-  void add_column(double x, double y, double low, int points, Verdict verdict,
-                  const Known& known) {
+  void add_column(double x, double y, double low, int points, Verdict verdict, const Known& known) {
     for (int k = 0; k < points; ++k) add({x, y, low + 0.2 * k}, verdict, known);
   }
   [[nodiscard]] raymoval_plus_method::SegmentedScan segmented() const {

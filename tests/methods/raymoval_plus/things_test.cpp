@@ -16,7 +16,8 @@ namespace {
 
 /// A voxel that was hit from scan `first` to scan `last`.
 VoxelEvidence hit_in(std::uint32_t first, std::uint32_t last) {
-  return {.hits = static_cast<std::uint16_t>(last - first + 1), .first_hit = first, .last_hit = last};
+  return {
+      .hits = static_cast<std::uint16_t>(last - first + 1), .first_hit = first, .last_hit = last};
 }
 
 /// Voxels at some cells, with what is known of them, of which the passes outside are found.
@@ -94,9 +95,10 @@ TEST_CASE("voxels of a thing are at most 0.6 m apart, or one voxel") {
 TEST_CASE("a voxel that no scan hit may belong to everything near it") {
   const VoxelEvidence evidence = evidence_of("ppp", 5);
   CHECK(passes(evidence, hit_in(0, 6)) == 1.0F);  // Scan 7.
-  CHECK(things(0.2, {{{0, 0, 0}, evidence}, {{1, 0, 0}, hit_in(0, 6)}, {{-1, 0, 0}, hit_in(40, 50)}})
-            .evidence(0)
-            .passes_outside == 0.0F);
+  CHECK(
+      things(0.2, {{{0, 0, 0}, evidence}, {{1, 0, 0}, hit_in(0, 6)}, {{-1, 0, 0}, hit_in(40, 50)}})
+          .evidence(0)
+          .passes_outside == 0.0F);
 }
 
 namespace {

@@ -146,9 +146,8 @@ TEST_CASE("a track may miss two scans, or ten while its object stands") {
     CHECK(marks(scans).back() == (missed == 2 ? kFirst : kNobody));
   }
   for (const int hidden : {10, 11}) {  // Stands for 20 scans, hidden in some of them, and walks.
-    Scans scans = scans_of(27, [](int i) {
-      return i < 20 ? walker(0, false, 0, 19) : walker(i - 19, true, i, i);
-    });
+    Scans scans = scans_of(
+        27, [](int i) { return i < 20 ? walker(0, false, 0, 19) : walker(i - 19, true, i, i); });
     for (auto scan = scans.begin() + 16 - hidden; scan != scans.begin() + 16; ++scan) scan->clear();
     const auto marked = marks(scans);
     // Of a track that ends in scan 16, the voxels are hit too long before.
@@ -231,9 +230,12 @@ TEST_CASE("what brakes between scans half a second apart is followed") {
   // A van drives 2 m a scan, and stands from the fifth scan on. It is expected 2 m ahead then, less
   // than 0.6 m + 4.5 x 0.5^2 m + 0.35 x 2 m, but more than 0.6 m + 4.5 x 0.1^2 m + 0.35 x 2 m.
   for (const double period : {0.1, 0.5}) {
-    const auto marked = marks(scans_of(8, [](int i) {
-      return van(i < 5 ? walker(10 * i, true, i, i) : walker(40, false, 4, 7));
-    }), period);
+    const auto marked =
+        marks(scans_of(8,
+                       [](int i) {
+                         return van(i < 5 ? walker(10 * i, true, i, i) : walker(40, false, 4, 7));
+                       }),
+              period);
     CHECK(marked[7] == (period == 0.5 ? kFirst : kNobody));
   }
 }

@@ -53,7 +53,8 @@ TEST_CASE("raymoval_plus takes the movers off a street and leaves the rest", "[s
   }
 }
 
-TEST_CASE("raymoval_plus answers alike for any number of threads, and who asks for more", "[slow]") {
+TEST_CASE("raymoval_plus answers alike for any number of threads, and who asks for more",
+          "[slow]") {
   const World world = street(12);
   for (const char* const name : kVariants) {
     const MaskStore masks = masks_of(*variant(name).make(), world);
