@@ -16,31 +16,31 @@ namespace {
 /// Its places are unknown at first; later scans pass the places that it left.
 class DrivingPost {
  public:
-  explicit DrivingPost(int recent_scans = 30) : recent_(with_recent_scans(recent_scans)) {}
+  explicit DrivingPost(int recent_scans = 30)
+      : parameters_{.recent_scans = recent_scans}, recent_(parameters_) {}
 
-  /// The post in its next place.
-  void scan() {
-    SegmentedScan scan;
-    scan.scan.index = voxels_.size();
-    voxels_.push_back(add_post(scan));
-    take(scan);
-  }
-  /// A scan once more, now with a pole aside, whose points come first: it is cluster 0.
-  void scan_again(std::size_t index) {
+  /// A scan of the post. A pole aside comes first: it is cluster 0.
+  void scan(std::size_t index, bool with_pole = false) {
     SegmentedScan scan;
     scan.scan.index = index;
-    for (int k = 0; k < 6; ++k) add({5.05, 12.05, 0.4 + 0.1 * k}, scan);
-    add_post(scan);
-    take(scan);
+    scan.scan.time_s = 0.1 * static_cast<double>(index);
+    for (int k = 0; k < 6 && with_pole; ++k) add({5.05, 12.05, 0.4 + 0.1 * k}, scan);
+    for (int k = 0; k < kPoints; ++k) add(place(index, k), scan);
+    find_clusters(parameters_, RunContext{}, scan);
+    add_evidence_of_points(in_map_.map, scan);
+    recent_.take(scan, in_map_.map, RunContext{});
     std::vector<std::uint32_t> blocks{in_map_.map.block_of(scan.voxel[0])};
     recent_.add_blocks(in_map_.map, blocks);
     std::sort(blocks.begin(), blocks.end());
-    CHECK(blocks == all_blocks(in_map_.map));  // Each once.
+    CHECK(std::adjacent_find(blocks.begin(), blocks.end()) == blocks.end());  // Each once.
+    for (const std::uint32_t voxel : scan.voxel) {
+      CHECK(std::binary_search(blocks.begin(), blocks.end(), in_map_.map.block_of(voxel)));
+    }
   }
   /// Later scans passed the place of a scan's post.
   void leave(std::size_t scan) {
-    for (const std::uint32_t voxel : voxels_[scan]) {
-      in_map_.map.evidence(voxel).passes_outside = 1.0F;
+    for (int k = 0; k < kPoints; ++k) {
+      in_map_.map.evidence(in_map_.find(place(scan, k))).passes_outside = 1.0F;
     }
   }
   /// The marked clusters of a scan, by the present evidence.
@@ -56,39 +56,21 @@ class DrivingPost {
   }
 
  private:
-  /// Adds a point without evidence, and returns its voxel.
-  std::uint32_t add(const Eigen::Vector3d& point, SegmentedScan& scan) {
-    const std::uint32_t voxel = in_map_.add(point);
-    VoxelEvidence& evidence = in_map_.map.evidence(voxel);
+  static constexpr int kPoints = 20;
+  static Eigen::Vector3d place(std::size_t scan, int k) {
+    return {5.05 + 1.5 * static_cast<double>(scan), 0.05 + 0.2 * (k % 2), 0.4 + 0.1 * k};
+  }
+  void add(const Eigen::Vector3d& point, SegmentedScan& scan) {
+    scan.voxel.push_back(in_map_.add(point));
+    VoxelEvidence& evidence = in_map_.map.evidence(scan.voxel.back());
     if (evidence.hits == 0) add_observation(Observation::kHit, scan.scan.index, evidence);
     scan.scan.points.push_back(point.cast<float>());
     scan.height.push_back(static_cast<float>(point.z()));
-    scan.voxel.push_back(voxel);
     scan.verdict.push_back(Verdict::kUndecided);
-    return voxel;
   }
-  /// Adds the post where it is in the scan, and returns its voxels.
-  std::vector<std::uint32_t> add_post(SegmentedScan& scan) {
-    std::vector<std::uint32_t> voxels;
-    const double x = 5.05 + 1.5 * static_cast<double>(scan.scan.index);
-    for (int k = 0; k < 20; ++k) {
-      voxels.push_back(add({x, 0.05 + 0.2 * (k % 2), 0.4 + 0.1 * k}, scan));
-    }
-    return voxels;
-  }
-  void take(SegmentedScan& scan) {
-    scan.scan.time_s = 0.1 * static_cast<double>(scan.scan.index);
-    find_clusters(Parameters{}, RunContext{}, scan);
-    add_evidence_of_points(in_map_.map, scan);
-    recent_.take(scan, in_map_.map, RunContext{});
-  }
-  static Parameters with_recent_scans(int scans) {
-    Parameters parameters;
-    parameters.recent_scans = scans;
-    return parameters;
-  }
+
+  Parameters parameters_;
   MapPoints in_map_;
-  std::vector<std::vector<std::uint32_t>> voxels_;  ///< By scan.
   RecentObjects recent_;
 };
 
@@ -97,7 +79,7 @@ class DrivingPost {
 TEST_CASE("what left three places behind is known to move, in a place of which nothing is known") {
   DrivingPost post;
   for (std::size_t i = 0; i < 6; ++i) {
-    post.scan();
+    post.scan(i);
     if (i >= 2) post.leave(i - 2);
     // Three places are left when scan 4 comes.
     CHECK(post.is_marked(i) == (i >= 4));
@@ -108,7 +90,7 @@ TEST_CASE("what left three places behind later is known to have moved before") {
   // No track from before leads to the first scan. A track needs three dynamic objects.
   for (const std::size_t left : {2U, 3U}) {
     DrivingPost post;
-    for (int i = 0; i < 5; ++i) post.scan();
+    for (std::size_t i = 0; i < 5; ++i) post.scan(i);
     for (std::size_t k = 0; k < left; ++k) post.leave(4 - k);
     CHECK(post.is_marked(0) == (left == 3));
   }
@@ -117,10 +99,10 @@ TEST_CASE("what left three places behind later is known to have moved before") {
 TEST_CASE("the clusters of a scan that is taken again replace those that it had") {
   // The post is cluster 0, or cluster 1 if there is a pole, which is kept.
   DrivingPost post;
-  for (int i = 0; i < 5; ++i) post.scan();
+  for (std::size_t i = 0; i < 5; ++i) post.scan(i);
   for (const std::size_t i : {0U, 1U, 2U}) post.leave(i);
   CHECK(post.marked(4) == std::vector{0});
-  for (const std::size_t i : {1U, 4U}) post.scan_again(i);
+  for (const std::size_t i : {1U, 4U}) post.scan(i, true);
   CHECK(post.marked(4) == std::vector{1});
 }
 
@@ -128,7 +110,7 @@ TEST_CASE("what was judged last holds for objects that are no longer recent") {
   DrivingPost late(1), post(2);
   for (std::size_t i = 0; i < 12; ++i) {
     for (DrivingPost* const some : {&late, &post}) {
-      some->scan();
+      some->scan(i);
       if (i >= 2) some->leave(i - 2);
     }
     CHECK_FALSE(late.is_marked(i));        // Forgotten before it left anything.

@@ -78,17 +78,6 @@ bool is_waiting_marked(double first_hit, double last_hit, float passes = 4.0F) {
 
 }  // namespace
 
-TEST_CASE("an object is dynamic with enough passes a point, or fewer and a contradiction") {
-  ObjectSummary object = walking(0, true);
-  CHECK(is_dynamic(object, Parameters{}));
-  object.points = 21;
-  CHECK_FALSE(is_dynamic(object, Parameters{}));
-  object.evidence.contradiction = 4.3F;  // More than a fifth of 21.
-  CHECK(is_dynamic(object, Parameters{}));
-  object.evidence.passes = 4.1F;
-  CHECK_FALSE(is_dynamic(object, Parameters{}));
-}
-
 TEST_CASE("an object is followed past its last evidence and before its first, a standing one not") {
   for (const bool backward : {false, true}) {
     const auto is_known = [&](int i) { return backward ? i > 2 : i < 7; };

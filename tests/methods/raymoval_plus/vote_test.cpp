@@ -47,19 +47,6 @@ TEST_CASE("a firm voxel keeps its decision in a crowd") {
   }
 }
 
-TEST_CASE("however small the share is, a voxel without a dynamic one around it stays") {
-  // Cells 0 to 3 are of one block, 4 to 7 of the next one. Cell 3 is within three cells of 6.
-  Row row;
-  row.add(3, Verdict::kDynamic);
-  for (const int cell : {6, 7}) row.add(cell, Verdict::kStatic);
-  Parameters parameters;
-  parameters.vote_share =
-      find_parameter("raymoval_plus", parameter_table().specs(), "vote_share").notes.minimum;
-  vote(parameters, RunContext{}, row.map);
-  CHECK(row.verdict(6) == Verdict::kDynamic);
-  CHECK(row.verdict(7) == Verdict::kStatic);
-}
-
 TEST_CASE("only the blocks of a scan get new verdicts when it arrives") {
   // Cells 0 and 3 are of one block of 4 x 4 x 4, cell 20 is of another.
   Row row;
