@@ -106,6 +106,15 @@ TEST_CASE("a beam crosses a voxel within one standard deviation of its points") 
   }
 }
 
+TEST_CASE("a beam that ends at a voxel hits it within sqrt(3) standard deviations") {
+  const Eigen::Vector3d ray = direction(0.6 * kDegree, 0.0), left(-ray.y(), ray.x(), 0.0);
+  for (const double aside : {-0.17, 0.17, -0.18, 0.18}) {
+    const Observation seen =
+        observation(beams({{0.6, 0.0, 10.0}}), 10.0 * ray + aside * left, ball(0.1F));
+    CHECK((seen == Observation::kHit) == (std::abs(aside) < std::sqrt(0.03)));
+  }
+}
+
 TEST_CASE("only voxels in the evidence range are tested, and no returns from the ego vehicle") {
   Parameters parameters;
   parameters.evidence_range_min = 5.0;
