@@ -107,10 +107,10 @@ TEST_CASE("a beam crosses a voxel within one standard deviation of its points") 
 }
 
 TEST_CASE("a beam that ends at a voxel hits it within sqrt(3) standard deviations") {
-  const Eigen::Vector3d ray = direction(0.6 * kDegree, 0.0), left(-ray.y(), ray.x(), 0.0);
+  const Eigen::Vector3d ray = direction(0.5 * kDegree, 0.0), left(-ray.y(), ray.x(), 0.0);
   for (const double aside : {-0.17, 0.17, -0.18, 0.18}) {
     const Observation seen =
-        observation(beams({{0.6, 0.0, 10.0}}), 10.0 * ray + aside * left, ball(0.1F));
+        observation(beams({{0.5, 0.0, 10.0}}), 10.0 * ray + aside * left, ball(0.1F));
     CHECK((seen == Observation::kHit) == (std::abs(aside) < std::sqrt(0.03)));
   }
 }
