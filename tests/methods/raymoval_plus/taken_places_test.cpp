@@ -21,23 +21,6 @@ ObjectSummary box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
 
 }  // namespace
 
-TEST_CASE("a place is taken in the scans in which half of it is filled along each axis") {
-  const ObjectSummary person = box({10.0, 0.0, 0.0}, {10.5, 0.5, 1.8});
-  TakenPlaces places;
-  places.sort();
-  CHECK(places.scans_at(person, 0.0) == 0);
-  places.add(3, box({6.0, -1.0, 0.0}, {10.25, 1.0, 1.5}));  // a van: half of it along x
-  places.add(5, box({6.0, -1.0, 0.0}, {10.2, 1.0, 1.5}));   // less
-  places.add(7, person);
-  places.add(7, box({6.0, -1.0, 0.0}, {11.0, 1.0, 1.5}));    // a scan counts once
-  places.add(8, box({10.0, 0.0, 1.0}, {10.5, 0.5, 1.8}));    // what is above the knees
-  places.add(9, box({110.0, 0.0, 0.0}, {110.5, 0.5, 1.8}));  // far away
-  places.sort();
-  CHECK(places.scans_at(person, 0.0) == 2);
-  CHECK(places.scans_at(person, 0.06) == 3);  // Now the shorter van and, nearly, the upper half.
-  CHECK(places.scans_at(person, 0.2) == 4);
-}
-
 TEST_CASE("taken places are those of a look at all boxes") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-8.0, 8.0), extent(0.1, 6.0);
