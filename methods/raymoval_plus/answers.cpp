@@ -123,7 +123,7 @@ void answer(const SegmentedScan& scan, const std::vector<int>& marked, const Evi
     context.reasons->accept(scan.scan.index, reasons_for(scan, maps, by_objects, decided));
   }
   if (context.evidence != nullptr) {
-    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, maps, parameters));
+    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, maps));
   }
 }
 

@@ -9,7 +9,6 @@ constexpr const char* kSource = "this project";
 // When parameters act.
 constexpr const char* kTerrain = "terrain is true";
 constexpr const char* kObjects = "objects is true";
-constexpr const char* kTracks = "objects is true and tracks is true";
 // The least value of a share. With 0, voxels would be dynamic without any dynamic one around them.
 constexpr double kMoreThanNone = 0.001;
 
@@ -93,10 +92,9 @@ void add_objects(Lines& table) {
                 "Points that a dynamic cluster needs. A cluster of at most this many points is "
                 "removed with a larger one beside it.",
                 kObjects);
-  table.number(
-      "cluster_gap", &P::cluster_gap, "m", 0.05, 5,
-      "Distance that joins points to a cluster; 1 cm more for each metre of range. A point "
-      "without another within a third of this is a lone drop.");
+  table.number("cluster_gap", &P::cluster_gap, "m", 0.05, 5,
+               "Distance that joins points to a cluster; 1 cm more for each metre of range.",
+               kObjects);
   table.flag("tracks", &P::tracks, "Track dynamic clusters over scans.", kObjects);
   table.number(
       "track_width", &P::track_width, "m", 0, 100,

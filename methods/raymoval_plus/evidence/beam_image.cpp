@@ -48,8 +48,9 @@ BeamImage::BeamImage(const SensorModel& sensor, const Parameters& parameters)
   const double width = sensor.azimuth_step > 0.0 ? sensor.azimuth_step : kUnknownStep;
   const double height =
       std::max(sensor.elevation_step > 0.0 ? 0.5 * sensor.elevation_step : kUnknownStep, kLeastRow);
-  columns_ = static_cast<int>(
-      std::clamp(std::round(2.0 * std::numbers::pi / width), kFewestColumns, kMostColumns));
+  // A whole number of blocks, so that those at both ends meet.
+  const double columns = std::clamp(2.0 * std::numbers::pi / width, kFewestColumns, kMostColumns);
+  columns_ = static_cast<int>(std::round(columns / (1 << kBlockShift))) << kBlockShift;
   azimuth_step_ = 2.0F * kPi / static_cast<float>(columns_);
   const double low = std::max(sensor.elevation_min - kMarginRows * height, -std::numbers::pi / 2.0);
   const double high = std::min(sensor.elevation_max + kMarginRows * height, std::numbers::pi / 2.0);
@@ -219,7 +220,7 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
     const int column1 = static_cast<int>(std::floor(column + wide));
     const auto slope = static_cast<float>(Parameters::distance_slope);
     const float hit = hit_ + slope * range, pass = pass_ + slope * range;
-    if (is_hidden(row0, row1, column0, column1, range - hit)) continue;
+    if (is_hidden(row0, row1, column0, column1, range - hit - shape.radius)) continue;
     const Eigen::Vector3f w(shape.xx * m.x() + shape.xy * m.y() + shape.xz * m.z(),
                             shape.xy * m.x() + shape.yy * m.y() + shape.yz * m.z(),
                             shape.xz * m.x() + shape.yz * m.y() + shape.zz * m.z());

@@ -64,9 +64,6 @@ class BeamImage {
   }
 
  private:
-  struct Bin {
-    int row, column;
-  };
   struct Beam {
     float x, y, z;  ///< Direction, axes of the world.
     float range;    ///< Metres.

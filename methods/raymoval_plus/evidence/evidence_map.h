@@ -73,10 +73,11 @@ class EvidenceMap {
     return number;
   }
   void add_point(std::uint32_t voxel, std::uint32_t parts);
-  /// Adds a place that may be outside of the voxel. @param offset from a point, metres
+  /// Remembers the range from which a point of the voxel was seen, metres.
   void see_from(std::uint32_t voxel, float range) {
     sums_[voxel].nearest = std::min(sums_[voxel].nearest, range);
   }
+  /// Adds a place that may be outside of the voxel. @param offset from a point, metres
   void add_beside(std::uint32_t voxel, std::uint32_t parts, const Eigen::Vector3f& offset);
   void add_sample(std::uint32_t voxel, int x, int y, int z);
   void expect_slot(std::size_t slot) const {

@@ -13,12 +13,13 @@ namespace {
 
 /// Voxels of a thing are at most so far apart, metres.
 constexpr double kThingReach = 0.6;
+constexpr double kRounding = 1e-9;  // Three voxels of 0.2 m are not to be more than 0.6 m.
 /// Their presences begin and end so many scans apart, and this share of both together.
 constexpr double kEndsApart = 5.0, kEndsApartShare = 0.1;
 /// What is open counts so much of what passes.
 constexpr float kOpenWeight = 0.5F;
 /// Blocks that a thread takes at a time. It changes no answer.
-constexpr std::size_t kBlocksATask = 64;
+constexpr std::size_t kThingBlocksATask = 64;
 
 bool are_alike(const Presence& a, const Presence& b) {
   const std::uint32_t begin = std::min(a.first, b.first), end = std::max(a.last, b.last);
@@ -51,10 +52,10 @@ float passes_outside(const VoxelIndex& cell, const VoxelEvidence& evidence,
 }  // namespace
 
 Surroundings::Surroundings(double voxel_size)
-    : reach_(std::max(1, static_cast<int>(std::lround(kThingReach / voxel_size)))),
+    : reach_(std::max(1, static_cast<int>(std::floor(kThingReach / voxel_size + kRounding)))),
       side_(kSide + 2 * reach_),
       presences_(static_cast<std::size_t>(side_ * side_ * side_)),
-      passes_(presences_.size()) {
+      voxels_(presences_.size()) {
   for (int z = -reach_; z <= reach_; ++z) {
     for (int y = -reach_; y <= reach_; ++y) {
       for (int x = -reach_; x <= reach_; ++x) {
@@ -75,7 +76,7 @@ void Surroundings::look_at(std::uint32_t block, const EvidenceMap& map) {
       const VoxelEvidence& evidence = map.evidence(voxel);
       if (evidence.hits == 0) return;
       presences_[place(cell)] = {evidence.first_hit, evidence.last_hit};
-      passes_[place(cell)] = evidence.passes_outside;
+      voxels_[place(cell)] = voxel;
     });
   });
 }
@@ -100,11 +101,11 @@ Presence Surroundings::presence_of_thing(const VoxelIndex& cell) const {
   return all;
 }
 
-float Surroundings::passes_of_thing(const VoxelIndex& cell) const {
+float Surroundings::passes_of_thing(const VoxelIndex& cell, const EvidenceMap& map) const {
   float passes = 0.0F;
   int voxels = 0;
   for_cells_of_thing(cell, [&](std::size_t at) {
-    passes += passes_[at];
+    passes += map.evidence(voxels_[at]).passes_outside;
     ++voxels;
   });
   return passes / static_cast<float>(std::max(voxels, 1));
@@ -114,7 +115,7 @@ void find_passes_outside(const std::vector<std::uint32_t>& blocks, const RunCont
                          EvidenceMap& map) {
   const StageScope timed(context.times, "passes outside");
   parallel_chunks(
-      context.threads, blocks.size(), kBlocksATask, [&](std::size_t begin, std::size_t end) {
+      context.threads, blocks.size(), kThingBlocksATask, [&](std::size_t begin, std::size_t end) {
         Surroundings around(map.voxel_size());
         for (std::size_t i = begin; i < end; ++i) {
           for_voxels(map, blocks[i], [&](std::uint32_t voxel, std::size_t) {

@@ -30,8 +30,8 @@ class Surroundings {
   void look_at(std::uint32_t block, const EvidenceMap& map);
   /// The scans in which the thing at a cell of the block was there.
   [[nodiscard]] Presence presence_of_thing(const VoxelIndex& cell) const;
-  /// The mean of `VoxelEvidence::passes_outside` over its voxels, as it was when they were read.
-  [[nodiscard]] float passes_of_thing(const VoxelIndex& cell) const;
+  /// The mean of `VoxelEvidence::passes_outside` over its voxels.
+  [[nodiscard]] float passes_of_thing(const VoxelIndex& cell, const EvidenceMap& map) const;
 
  private:
   static constexpr int kSide = EvidenceMap::Blocks::kSideXY;
@@ -45,7 +45,7 @@ class Surroundings {
   std::uint32_t block_ = EvidenceMap::kNone;
   VoxelIndex corner_ = VoxelIndex::Zero();  ///< The lowest of the cells.
   std::vector<Presence> presences_;         ///< Of each cell, x fastest, then y.
-  std::vector<float> passes_;
+  std::vector<std::uint32_t> voxels_;
   std::vector<std::size_t> steps_;  ///< To the cells that may be of the same thing.
 };
 

@@ -131,7 +131,7 @@ class OtherThings {
   }
   [[nodiscard]] float passes_of_thing(std::uint32_t k) {
     around_.look_at(map_.block_of(scan_.voxel[k]), map_);
-    return around_.passes_of_thing(map_.index(scan_.voxel[k]));
+    return around_.passes_of_thing(map_.index(scan_.voxel[k]), map_);
   }
 
   const SegmentedScan& scan_;

@@ -23,27 +23,22 @@ std::vector<float> object_shares(const SegmentedScan& scan) {
   return shares;
 }
 
-/// The `free_share` of a point's voxel, but 0 for ground that stays.
-float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps,
-                const Parameters& parameters) {
+/// The contradiction of a point's voxel, but 0 for ground that stays.
+float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps) {
   if (scan.has_standing_voxel(k)) {
-    return free_share(maps.standing.evidence(scan.voxel[k]), parameters);
+    return contradiction(maps.standing.evidence(scan.voxel[k]));
   }
   if (scan.verdict[k] != Verdict::kDynamic) return 0.0F;
-  return free_share(maps.ground.evidence(scan.ground_voxel[k]), parameters);
+  return contradiction(maps.ground.evidence(scan.ground_voxel[k]));
 }
 
 }  // namespace
 
-float free_share(const VoxelEvidence& evidence, const Parameters&) {
-  return contradiction(evidence);
-}
-
 std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,
-                                      const EvidenceMaps& maps, const Parameters& parameters) {
+                                      const EvidenceMaps& maps) {
   std::vector<float> evidence = object_shares(scan);
   for (std::size_t k = 0; k < evidence.size(); ++k) {
-    const float own = own_share(scan, k, maps, parameters);
+    const float own = own_share(scan, k, maps);
     const float object = evidence[k] == kNoObject ? own : evidence[k];
     const float verdict = decided[k] == Verdict::kDynamic ? 1.0F : 0.0F;
     evidence[k] = 0.5F * verdict + 0.25F * (own + object);

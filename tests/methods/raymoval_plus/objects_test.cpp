@@ -211,7 +211,7 @@ TEST_CASE("the verdict counts half, the voxel and the object a quarter each") {
   const Verdicts decided = {Verdict::kDynamic, Verdict::kStatic,  Verdict::kDynamic,
                             Verdict::kStatic,  Verdict::kDynamic, Verdict::kStatic};
   scan.verdict = decided;
-  const std::vector<float> evidence = evidence_of_points(scan, decided, maps, Parameters{});
+  const std::vector<float> evidence = evidence_of_points(scan, decided, maps);
   CHECK(evidence[0] == Approx(0.5 + 0.25 * 0.75 + 0.25 * 0.5));
   CHECK(evidence[1] == Approx(0.25 * 0.5));
   CHECK(evidence[2] == Approx(0.5));  // Only the decision supports it.

@@ -169,7 +169,7 @@ TEST_CASE("things are found as by a comparison of all voxels with each other") {
     const float mean = thing.passes / static_cast<float>(std::max(thing.voxels, 1));
     wrong += outside != thing.passes_outside(map.evidence(v)) ? 1 : 0;
     wrong += presence.first != thing.presence.first || presence.last != thing.presence.last ? 1 : 0;
-    wrong += around.passes_of_thing(map.index(v)) != mean ? 1 : 0;
+    wrong += around.passes_of_thing(map.index(v), map) != mean ? 1 : 0;
     ++found[static_cast<std::size_t>(2.0F * outside)];
     of_things += thing.voxels > 1 ? 1 : 0;
   }
