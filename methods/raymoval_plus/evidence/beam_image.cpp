@@ -19,6 +19,8 @@ constexpr int kBlockShift = 3;
 /// Squares of the distances from a voxel's mean, in standard deviations, up to which a beam crosses
 /// it and up to which one that ends there hits it.
 constexpr float kCrosses = 1.0F, kMeets = 3.0F;
+/// The root of the larger one: beams at most so many deviations aside are looked at.
+constexpr float kWindow = 1.7320508F;
 
 /// Rows of beams so far apart may leave a voxel between them, metres; it is asked for up to so many
 /// times the range from which it was seen.
@@ -208,7 +210,7 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
     const VoxelShape& shape = shapes[v];
     const Eigen::Vector3f s = R_sensor_world_ * m;
     const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
-    const float half = shape.radius / range;
+    const float half = kWindow * shape.radius / range;
     const float row = elevation_bin(s, flat), high = half / elevation_step_;
     if (row + high < 0.0F || row - high >= static_cast<float>(rows_)) continue;
     const int row0 = std::max(static_cast<int>(std::floor(row - high)), 0);
