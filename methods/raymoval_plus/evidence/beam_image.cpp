@@ -21,6 +21,8 @@ constexpr int kBlockShift = 3;
 constexpr float kCrosses = 1.0F, kMeets = 3.0F;
 /// The root of the larger one: beams at most so many deviations aside are looked at.
 constexpr float kWindow = 1.7320508F;
+/// A margin for the rounding of squares of distances.
+constexpr float kRounding = 1e-6F;
 
 /// Rows of beams so far apart may leave a voxel between them, metres; it is asked for up to so many
 /// times the range from which it was seen.
@@ -29,7 +31,7 @@ constexpr float kRowGap = 0.3F, kFarther = 1.5F;
 constexpr float kLeastGap = 0.1F, kMostGap = 1.5F;
 
 /// Angle of a direction, radians. Abramowitz and Stegun, 4.4.49; error below 1e-5.
-float arc_tangent(float y, float x) {
+inline float arc_tangent(float y, float x) {
   const float a = std::abs(x), b = std::abs(y), most = std::max(a, b);
   const float q = most > 0.0F ? std::min(a, b) / most : 0.0F, s = q * q;
   float angle =
@@ -153,27 +155,16 @@ void BeamImage::find_farthest() {
   }
 }
 
-std::span<const BeamImage::Beam> BeamImage::beams(int row, int first_column,
-                                                  int last_column) const {
-  const auto bin = [&](int column) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
-  };
-  const std::uint32_t begin = first_[bin(first_column)], end = first_[bin(last_column) + 1];
-  return {beams_.data() + begin, end - begin};
-}
-
-bool BeamImage::is_hidden(int first_row, int last_row, int first_column, int last_column,
-                          float range) const {
+bool BeamImage::is_hidden(const Window& window, float range) const {
   const auto wrapped = [&](int c) {
     return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
   };
-  for (int r = first_row >> kBlockShift; r <= last_row >> kBlockShift; ++r) {
-    for (int c = first_column;; c = std::min(c + (1 << kBlockShift), last_column)) {
+  for (int r = window.row0 >> kBlockShift; r <= window.row1 >> kBlockShift; ++r) {
+    for (int c = window.column0;; c = std::min(c + (1 << kBlockShift), window.column1)) {
       if (farthest_[static_cast<std::size_t>(r * block_columns_ + (wrapped(c) >> kBlockShift))] >=
           range)
         return false;
-      if (c == last_column) break;
+      if (c == window.column1) break;
     }
   }
   return true;
@@ -197,6 +188,79 @@ bool BeamImage::is_open(float row, float column, float range) const {
   return above && below;
 }
 
+BeamImage::Window BeamImage::window_around(const Eigen::Vector3f& mean, float range,
+                                           float radius) const {
+  const Eigen::Vector3f s = R_sensor_world_ * mean;
+  const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
+  const float half = kWindow * radius / range, high = half / elevation_step_;
+  const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_,
+                              0.25F * static_cast<float>(columns_));
+  const float row = elevation_bin(s, flat), column = azimuth_bin(s);
+  const auto whole = [](float bin) { return static_cast<int>(std::floor(bin)); };
+  return {row,
+          column,
+          std::max(whole(row - high), 0),
+          std::min(whole(row + high), rows_ - 1),
+          whole(column - wide),
+          whole(column + wide)};
+}
+
+/// What the beams of a window say of a voxel: whether any comes near it, and whether any passes
+/// through it or ends there.
+struct BeamImage::Meeting {
+  const VoxelShape& shape;
+  const Eigen::Vector3f mean, weighted;  ///< From the sensor, and times the inverse covariance.
+  const float square, away;  ///< Of the distance, square metres and squared deviations.
+  const float plane;         ///< How far the plane of a flat voxel is from the sensor, metres.
+  const float hit, pass, nearest;
+  bool is_hit = false, is_passed = false, is_crossed = false;
+
+  [[nodiscard]] bool ends_behind_plane(const Beam& b) const {
+    if (shape.behind == 0.0F) return true;
+    const float end = b.range * (shape.nx * b.x + shape.ny * b.y + shape.nz * b.z) - plane;
+    return plane > 0.0F ? end > shape.behind : end < -shape.behind;
+  }
+
+  /// Stops at the first beam that hits: nothing outweighs it.
+  void test(std::span<const Beam> beams) {
+    const float widest = square - kMeets * shape.radius * shape.radius - kRounding * square;
+    for (const Beam& b : beams) {
+      const float ahead = b.x * mean.x() + b.y * mean.y() + b.z * mean.z();
+      if (b.range < nearest || ahead * ahead < widest) continue;
+      const float along = b.x * weighted.x() + b.y * weighted.y() + b.z * weighted.z();
+      const float norm =
+          shape.xx * b.x * b.x + shape.yy * b.y * b.y + shape.zz * b.z * b.z +
+          2.0F * (shape.xy * b.x * b.y + shape.xz * b.x * b.z + shape.yz * b.y * b.z);
+      const float aside = away - along * along / norm;
+      if (aside > kMeets) continue;
+      is_crossed = true;
+      const float behind = b.range - along / norm;
+      if (std::abs(behind) <= hit) {
+        is_hit = true;
+        return;
+      }
+      is_passed |= behind > pass && aside <= kCrosses && ends_behind_plane(b);
+    }
+  }
+};
+
+void BeamImage::meet(const Window& window, Meeting& meeting) const {
+  const int rows = window.row1 - window.row0 + 1, middle = window.row0 + (rows - 1) / 2;
+  // The rows in the middle are the likeliest to hit.
+  for (int i = 0; i < rows && !meeting.is_hit; ++i) {
+    const int row = i % 2 == 0 ? middle - i / 2 : middle + (i + 1) / 2;
+    if (window.column0 < 0) {
+      meeting.test(beams(row, 0, window.column1));
+      if (!meeting.is_hit) meeting.test(beams(row, window.column0 + columns_, columns_ - 1));
+    } else if (window.column1 >= columns_) {
+      meeting.test(beams(row, window.column0, columns_ - 1));
+      if (!meeting.is_hit) meeting.test(beams(row, 0, window.column1 - columns_));
+    } else {
+      meeting.test(beams(row, window.column0, window.column1));
+    }
+  }
+}
+
 void BeamImage::observe(std::span<const float> places, std::span<const VoxelShape> shapes,
                         const Eigen::Vector3d& origin, std::vector<ObservedVoxel>& observed) const {
   observed.clear();
@@ -208,68 +272,28 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
     if (square < range_min_ * range_min_ || square > range_max_ * range_max_) continue;
     const float range = std::sqrt(square);
     const VoxelShape& shape = shapes[v];
-    const Eigen::Vector3f s = R_sensor_world_ * m;
-    const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
-    const float half = kWindow * shape.radius / range;
-    const float row = elevation_bin(s, flat), high = half / elevation_step_;
-    if (row + high < 0.0F || row - high >= static_cast<float>(rows_)) continue;
-    const int row0 = std::max(static_cast<int>(std::floor(row - high)), 0);
-    const int row1 = std::min(static_cast<int>(std::floor(row + high)), rows_ - 1);
-    const float column = azimuth_bin(s);
-    const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_,
-                                0.25F * static_cast<float>(columns_));
-    const int column0 = static_cast<int>(std::floor(column - wide));
-    const int column1 = static_cast<int>(std::floor(column + wide));
-    const auto slope = static_cast<float>(Parameters::distance_slope);
-    const float hit = hit_ + slope * range, pass = pass_ + slope * range;
-    if (is_hidden(row0, row1, column0, column1, range - hit - shape.radius)) continue;
+    const Window window = window_around(m, range, shape.radius);
+    const float slope = static_cast<float>(Parameters::distance_slope) * range;
+    const float hit = hit_ + slope, nearest = range - hit - kWindow * shape.radius;
+    if (window.row0 > window.row1 || is_hidden(window, nearest)) continue;
     const Eigen::Vector3f w(shape.xx * m.x() + shape.xy * m.y() + shape.xz * m.z(),
                             shape.xy * m.x() + shape.yy * m.y() + shape.yz * m.z(),
                             shape.xz * m.x() + shape.yz * m.y() + shape.zz * m.z());
-    const float away = w.dot(m);
-    bool is_hit = false, is_passed = false, is_crossed = false;
     const float plane = shape.nx * m.x() + shape.ny * m.y() + shape.nz * m.z();
-    const auto ends_behind = [&](const Beam& b) {
-      if (shape.behind == 0.0F) return true;
-      const float end = b.range * (shape.nx * b.x + shape.ny * b.y + shape.nz * b.z) - plane;
-      return plane > 0.0F ? end > shape.behind : end < -shape.behind;
+    Meeting meeting{shape, m, w, square, w.dot(m), plane, hit, pass_ + slope, nearest};
+    meet(window, meeting);
+    const auto say = [&](Observation observation) {
+      observed.push_back({static_cast<std::uint32_t>(v), observation, range});
     };
-    const auto test = [&](std::span<const Beam> some) {
-      for (const Beam& b : some) {
-        if (b.range < range - hit - shape.radius) continue;
-        const float along = b.x * w.x() + b.y * w.y() + b.z * w.z();
-        const float norm =
-            shape.xx * b.x * b.x + shape.yy * b.y * b.y + shape.zz * b.z * b.z +
-            2.0F * (shape.xy * b.x * b.y + shape.xz * b.x * b.z + shape.yz * b.y * b.z);
-        const float aside = away - along * along / norm;
-        if (aside > kMeets) continue;
-        is_crossed = true;
-        const float behind = b.range - along / norm;
-        if (std::abs(behind) <= hit)
-          is_hit = true;
-        else if (behind > pass && aside <= kCrosses && ends_behind(b))
-          is_passed = true;
-      }
-    };
-    for (int r = row0; r <= row1 && !is_hit; ++r) {
-      if (column0 < 0) {
-        test(beams(r, 0, column1));
-        test(beams(r, column0 + columns_, columns_ - 1));
-      } else if (column1 >= columns_) {
-        test(beams(r, column0, columns_ - 1));
-        test(beams(r, 0, column1 - columns_));
-      } else {
-        test(beams(r, column0, column1));
-      }
+    if (meeting.is_hit) {
+      say(Observation::kHit);
+    } else if (meeting.is_passed) {
+      say(Observation::kPassed);
+    } else if (!meeting.is_crossed && range <= kFarther * shape.nearest &&
+               2.0F * elevation_step_ * range > kRowGap &&
+               is_open(window.row, window.column, range + meeting.pass)) {
+      say(Observation::kOpen);
     }
-    if (!is_crossed && range <= kFarther * shape.nearest &&
-        2.0F * elevation_step_ * range > kRowGap) {
-      if (is_open(row, column, range + pass))
-        observed.push_back({static_cast<std::uint32_t>(v), Observation::kOpen, range});
-    }
-    if (is_hit || is_passed)
-      observed.push_back({static_cast<std::uint32_t>(v),
-                          is_hit ? Observation::kHit : Observation::kPassed, range});
   }
 }
 

@@ -22,7 +22,7 @@ struct VoxelShape {
   /// Of a flat voxel: the normal, and how far behind its plane a beam must end to pass, metres; 0
   /// for others.
   float nx = 0.0F, ny = 0.0F, nz = 0.0F, behind = 0.0F;
-  float radius = 0.0F;  ///< At most one standard deviation in any direction, metres.
+  float radius = 0.0F;  ///< The largest standard deviation in any direction, metres.
 };
 
 /// A voxel that a scan hits or passes through.
@@ -71,9 +71,23 @@ class BeamImage {
   };
   [[nodiscard]] float azimuth_bin(const Eigen::Vector3f& p) const;
   [[nodiscard]] float elevation_bin(const Eigen::Vector3f& p, float flat) const;
-  [[nodiscard]] std::span<const Beam> beams(int row, int first_column, int last_column) const;
-  [[nodiscard]] bool is_hidden(int first_row, int last_row, int first_column, int last_column,
-                               float range) const;
+  [[nodiscard]] std::span<const Beam> beams(int row, int first_column, int last_column) const {
+    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
+    const std::uint32_t begin = first_[start + static_cast<std::size_t>(first_column)];
+    const std::uint32_t end = first_[start + static_cast<std::size_t>(last_column) + 1];
+    return {beams_.data() + begin, end - begin};
+  }
+  /// The bins whose beams may meet a voxel, and where its mean is among them, in bins. Columns
+  /// below 0 and from `columns_` on are those of the other end.
+  struct Window {
+    float row, column;
+    int row0, row1, column0, column1;
+  };
+  struct Meeting;
+  [[nodiscard]] Window window_around(const Eigen::Vector3f& mean, float range, float radius) const;
+  /// Whether all beams of a window's blocks end before `range`, metres.
+  [[nodiscard]] bool is_hidden(const Window& window, float range) const;
+  void meet(const Window& window, Meeting& meeting) const;
   [[nodiscard]] bool is_open(float row, float column, float range) const;
   void find_farthest();
 

@@ -117,10 +117,9 @@ VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   const Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
   const float behind = is_flat ? static_cast<float>(kBehind + deviations[0]) : 0.0F;
   const Eigen::Matrix3f inverse = covariance.inverse().cast<float>();
-  const double radius = std::sqrt(covariance.cwiseAbs().rowwise().sum().maxCoeff());
   return {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1),
           inverse(0, 2), inverse(1, 2), sums.nearest,  normal.x(),
-          normal.y(),    normal.z(),    behind,        static_cast<float>(radius)};
+          normal.y(),    normal.z(),    behind,        static_cast<float>(deviations[2])};
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {
