@@ -29,6 +29,9 @@ constexpr float kRounding = 1e-6F;
 constexpr float kRowGap = 0.3F, kFarther = 1.5F;
 /// Beams so far apart leave gaps on surfaces that are filled, metres.
 constexpr float kLeastGap = 0.1F, kMostGap = 1.5F;
+/// A surface goes on to a neighbouring return that is deeper by at most so much more than it lies
+/// aside, and at most so deep, metres.
+constexpr float kDeeper = 0.2F, kMostDeeper = 1.0F;
 
 /// Angle of a direction, radians. Abramowitz and Stegun, 4.4.49; error below 1e-5.
 inline float arc_tangent(float y, float x) {
@@ -103,40 +106,46 @@ void BeamImage::fill(const Scan& scan) {
   find_farthest();
 }
 
+const BeamImage::Beam* BeamImage::neighbour(int row, int column, int rows, int columns,
+                                            const Beam& of) const {
+  // Rows of half the sensor's step may be empty, and rings lean.
+  const int farthest = rows != 0 ? 3 : 2, sides = rows != 0 ? 3 : 1;
+  for (int i = 1; i <= farthest; ++i) {
+    const int r = row + i * rows;
+    if (r < 0 || r >= rows_) return nullptr;
+    for (int side = 0; side < sides; ++side) {
+      const int c = wrapped(column + i * columns + (side == 2 ? -1 : side));
+      const std::span<const Beam> others = beams(r, c, c);
+      if (others.empty()) continue;
+      return &*std::min_element(
+          others.begin(), others.end(), [&](const Beam& one, const Beam& two) {
+            return std::abs(one.range - of.range) < std::abs(two.range - of.range);
+          });
+    }
+  }
+  return nullptr;
+}
+
 void BeamImage::find_extensions(std::vector<Extension>& extensions) const {
   extensions.clear();
   const auto position = [](const Beam& b) {
     return Eigen::Vector3f(b.x * b.range, b.y * b.range, b.z * b.range);
   };
-  const auto wrapped = [&](int c) {
-    return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
-  };
-  static constexpr int kStepRow[4] = {1, -1, 0, 0}, kStepColumn[4] = {0, 0, 1, -1};
-  for (int r = 0; r < rows_; ++r) {
-    for (int c = 0; c < columns_; ++c) {
-      for (const Beam& beam : beams(r, c, c)) {
-        const Eigen::Vector3f p = position(beam);
-        for (int n = 0; n < 4; ++n) {
-          const float step = n < 2 ? 2.0F * elevation_step_ : azimuth_step_;
-          if (step * beam.range < kLeastGap) continue;
-          bool found = false;
-          for (int i = 1; i <= (n < 2 ? 3 : 2) && !found; ++i) {
-            const int row = r + i * kStepRow[n];
-            if (row < 0 || row >= rows_) break;
-            for (int side = 0; side < (n < 2 ? 3 : 1) && !found; ++side) {
-              const int column = wrapped(c + i * kStepColumn[n] + (side == 2 ? -1 : side));
-              const std::span<const Beam> others = beams(row, column, column);
-              if (others.empty()) continue;
-              found = true;
-              const Eigen::Vector3f offset = position(others.front()) - p;
-              const float deeper = std::abs(others.front().range - beam.range);
-              const float aside = std::sqrt(std::max(offset.squaredNorm() - deeper * deeper, 0.0F));
-              if (aside < kLeastGap || aside > kMostGap || deeper > std::min(aside + 0.2F, 1.0F))
-                break;
-              extensions.push_back({beam.point, offset / 3.0F});
-            }
-          }
-        }
+  static constexpr int kRows[4] = {1, -1, 0, 0}, kColumns[4] = {0, 0, 1, -1};
+  for (int bin = 0; bin < static_cast<int>(size()); ++bin) {
+    const int row = bin / columns_, column = bin % columns_;
+    for (const Beam& beam : beams(row, column, column)) {
+      for (int n = 0; n < 4; ++n) {
+        const float step = kRows[n] != 0 ? 2.0F * elevation_step_ : azimuth_step_;
+        if (step * beam.range < kLeastGap) continue;
+        const Beam* const other = neighbour(row, column, kRows[n], kColumns[n], beam);
+        if (other == nullptr) continue;
+        const Eigen::Vector3f offset = position(*other) - position(beam);
+        const float deeper = std::abs(other->range - beam.range);
+        const float aside = std::sqrt(std::max(offset.squaredNorm() - deeper * deeper, 0.0F));
+        const bool goes_on = aside >= kLeastGap && aside <= kMostGap &&
+                             deeper <= std::min(aside + kDeeper, kMostDeeper);
+        if (goes_on) extensions.push_back({beam.point, offset / 3.0F});
       }
     }
   }
@@ -156,9 +165,6 @@ void BeamImage::find_farthest() {
 }
 
 bool BeamImage::is_hidden(const Window& window, float range) const {
-  const auto wrapped = [&](int c) {
-    return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
-  };
   for (int r = window.row0 >> kBlockShift; r <= window.row1 >> kBlockShift; ++r) {
     for (int c = window.column0;; c = std::min(c + (1 << kBlockShift), window.column1)) {
       if (farthest_[static_cast<std::size_t>(r * block_columns_ + (wrapped(c) >> kBlockShift))] >=
@@ -171,9 +177,6 @@ bool BeamImage::is_hidden(const Window& window, float range) const {
 }
 
 bool BeamImage::is_open(float row, float column, float range) const {
-  const auto wrapped = [&](int c) {
-    return c < 0 ? c + columns_ : c >= columns_ ? c - columns_ : c;
-  };
   const int c0 = static_cast<int>(std::floor(column)), r0 = static_cast<int>(std::floor(row));
   bool above = false, below = false;
   for (int r = std::max(r0 - 2, 0); r <= std::min(r0 + 2, rows_ - 1); ++r) {
@@ -192,9 +195,10 @@ BeamImage::Window BeamImage::window_around(const Eigen::Vector3f& mean, float ra
                                            float radius) const {
   const Eigen::Vector3f s = R_sensor_world_ * mean;
   const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
-  const float half = kWindow * radius / range, high = half / elevation_step_;
-  const float wide = std::min(half * range / std::max(flat, 0.1F * range) / azimuth_step_,
-                              0.25F * static_cast<float>(columns_));
+  const float half = kWindow * radius, high = half / range / elevation_step_;
+  // The arc sine of up to a half is at most 1.05 of it. Around the axis a voxel is in all columns.
+  const float wide = half < 0.5F * flat ? 1.05F * half / flat / azimuth_step_
+                                        : 0.5F * static_cast<float>(columns_);
   const float row = elevation_bin(s, flat), column = azimuth_bin(s);
   const auto whole = [](float bin) { return static_cast<int>(std::floor(bin)); };
   return {row,
@@ -210,8 +214,8 @@ BeamImage::Window BeamImage::window_around(const Eigen::Vector3f& mean, float ra
 struct BeamImage::Meeting {
   const VoxelShape& shape;
   const Eigen::Vector3f mean, weighted;  ///< From the sensor, and times the inverse covariance.
-  const float square, away;  ///< Of the distance, square metres and squared deviations.
-  const float plane;         ///< How far the plane of a flat voxel is from the sensor, metres.
+  const float square, away;              ///< Of the distance, square metres and squared deviations.
+  const float plane;  ///< How far the plane of a flat voxel is from the sensor, metres.
   const float hit, pass, nearest;
   bool is_hit = false, is_passed = false, is_crossed = false;
 

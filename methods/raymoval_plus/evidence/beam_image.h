@@ -69,6 +69,9 @@ class BeamImage {
     float range;    ///< Metres.
     std::uint32_t point;
   };
+  [[nodiscard]] int wrapped(int column) const {
+    return column < 0 ? column + columns_ : column >= columns_ ? column - columns_ : column;
+  }
   [[nodiscard]] float azimuth_bin(const Eigen::Vector3f& p) const;
   [[nodiscard]] float elevation_bin(const Eigen::Vector3f& p, float flat) const;
   [[nodiscard]] std::span<const Beam> beams(int row, int first_column, int last_column) const {
@@ -87,6 +90,9 @@ class BeamImage {
   [[nodiscard]] Window window_around(const Eigen::Vector3f& mean, float range, float radius) const;
   /// Whether all beams of a window's blocks end before `range`, metres.
   [[nodiscard]] bool is_hidden(const Window& window, float range) const;
+  /// The nearest return of a beam's neighbours, `rows` and `columns` a step, that is most like it.
+  [[nodiscard]] const Beam* neighbour(int row, int column, int rows, int columns,
+                                      const Beam& of) const;
   void meet(const Window& window, Meeting& meeting) const;
   [[nodiscard]] bool is_open(float row, float column, float range) const;
   void find_farthest();

@@ -69,8 +69,14 @@ void add_hits(std::uint32_t k, const SegmentedScan& scan, const EvidenceMap& map
 }
 
 /// Makes means of the sums.
-void divide_sums(int points, ObjectSummary& object) {
+/// @param points those whose hits were added; without any, the object is hit by its scan
+void divide_sums(int points, std::size_t scan, ObjectSummary& object) {
   object.center /= object.points;
+  if (points == 0) {
+    object.hits = 1.0F;
+    object.first_hit = object.last_hit = static_cast<double>(scan);
+    return;
+  }
   object.hits /= static_cast<float>(points);
   object.first_hit /= points;
   object.last_hit /= points;
@@ -216,7 +222,7 @@ std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const Ev
     if (follow[c] == 0 || object.width() > parameters.track_width) continue;
     object.points = scan.clusters[c].points;
     object.evidence = scan.clusters[c].evidence;
-    divide_sums(std::max(object.points - object.evidence.dynamic, 1), object);
+    divide_sums(object.points - object.evidence.dynamic, scan.scan.index, object);
     object.time_s = scan.scan.time_s;
     object.range = static_cast<float>((object.center - sensor).norm());
     object.cluster = static_cast<int>(c);
