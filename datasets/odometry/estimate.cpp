@@ -196,14 +196,6 @@ bool is_at_rest(const std::vector<Pose>& poses) {
   });
 }
 
-double path_length(const std::vector<Pose>& poses) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    length += (poses[i].translation() - poses[i - 1].translation()).norm();
-  }
-  return length;
-}
-
 /// Closes loops: the poses that fit `edges` and the returns to a place.
 std::vector<Pose> with_loops(const MovingScans& input, const Steps& steps,
                              std::vector<GraphEdge> edges, std::vector<Pose> poses,
@@ -368,9 +360,10 @@ PoseEstimate estimate_poses(MovingScans input) {
         "The sensor was at rest, or all that it sees moves along with it: the estimated poses "
         "differ by less than 0.05 m and 0.5 degrees.");
   } else {
-    estimate.notes.push_back(fmt::format(
-        "The poses are estimated from the scans: a path of {} m with {}.",
-        fixed_text(path_length(estimate.poses), 1), counted_text(estimate.loops, "closed loop")));
+    estimate.notes.push_back(
+        fmt::format("The poses are estimated from the scans: a path of {} m with {}.",
+                    fixed_text(registration::path_lengths(estimate.poses).back(), 1),
+                    counted_text(estimate.loops, "closed loop")));
   }
   note_uncertain(steps, estimate.notes);
   return estimate;

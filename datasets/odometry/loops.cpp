@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "datasets/odometry/map_registration.h"
+#include "datasets/registration/pose_fit.h"
 
 namespace raymoval::odometry {
 namespace {
@@ -34,16 +35,8 @@ struct Candidate {
   double drift;  ///< Metres that the poses may be off.
 };
 
-std::vector<double> lengths_of(const std::vector<Pose>& poses) {
-  std::vector<double> lengths(poses.size(), 0.0);
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    lengths[i] = lengths[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm();
-  }
-  return lengths;
-}
-
 std::vector<Candidate> candidates_of(const std::vector<Pose>& poses, double stride) {
-  const std::vector<double> lengths = lengths_of(poses);
+  const std::vector<double> lengths = registration::path_lengths(poses);
   std::vector<std::size_t> stations;
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -18,6 +18,15 @@
 #include "datasets/registration/register_scans.h"
 
 namespace raymoval::registration {
+
+std::vector<double> path_lengths(const std::vector<Pose>& poses) {
+  std::vector<double> lengths(poses.size(), 0.0);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    lengths[i] = lengths[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm();
+  }
+  return lengths;
+}
+
 namespace {
 
 /// Distance between stations: this share of the median range, within bounds in metres.
@@ -44,15 +53,6 @@ constexpr std::size_t kFewestPairs = 4;  // Fewer are no basis: one in some hund
 constexpr std::size_t kBatch = 32;       // Pairs whose scans are in memory together.
 
 using Pairs = std::vector<PairDistance>;
-
-/// Length of the path up to each scan, metres.
-std::vector<double> path_lengths(const std::vector<Pose>& poses) {
-  std::vector<double> lengths(poses.size(), 0.0);
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    lengths[i] = lengths[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm();
-  }
-  return lengths;
-}
 
 double turn_between(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();

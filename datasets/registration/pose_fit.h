@@ -28,6 +28,9 @@ struct PoseFit {
 inline constexpr double kMostDistance = 0.05;        // metres, of half the pairs
 inline constexpr double kMostDistanceOfPair = 0.07;  // metres
 
+/// Length of the path up to each pose, metres.
+std::vector<double> path_lengths(const std::vector<Pose>& poses);
+
 /// The pair that fits worst. @param fit with pairs
 const PairDistance& worst_pair(const PoseFit& fit);
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks that are counted, and runs of the program that are checked."""
+"""Checks that are counted, those of any page, and runs of the program that are checked."""
 import subprocess
 
 count = failures = 0
@@ -11,6 +11,20 @@ def check(name, holds, more=""):
     if not holds:
         failures += 1
         print(f"FAILED: {name} {more}", flush=True)
+
+
+def check_ids(browser):
+    check("ids are unique", browser.run(
+        "(() => { const all = [...document.querySelectorAll('[id]')].map((part) => part.id);"
+        " return new Set(all).size === all.length; })()"))
+
+
+def check_contrast(browser):
+    for dark in (False, True):
+        browser.set_dark(dark)
+        low = browser.low_contrast()
+        check(f"contrast is at least 4.5 ({'dark' if dark else 'light'})", low == [], low[:5])
+    browser.set_dark(False)
 
 
 def program(path, *arguments, code=0):

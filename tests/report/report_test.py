@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 import chromium
-from checks import check, finish, program
+from checks import check, check_contrast, check_ids, finish, program
 
 
 def colours(browser, left=0.0, right=1.0):
@@ -85,9 +85,7 @@ def check_accessible(browser):
     check("links of the navigation lead somewhere", browser.run(
         "[...document.querySelectorAll('nav a')].every("
         "(link) => document.querySelector(link.getAttribute('href')))"))
-    check("ids are unique", browser.run(
-        "(() => { const all = [...document.querySelectorAll('[id]')].map((part) => part.id);"
-        " return new Set(all).size === all.length; })()"))
+    check_ids(browser)
     check("charts have a text alternative", browser.run(
         "[...document.querySelectorAll('svg.raymoval-chart')].every("
         "(chart) => chart.querySelector('title') && chart.querySelector('desc'))"))
@@ -98,11 +96,7 @@ def check_accessible(browser):
 
 def check_looks(browser):
     """Contrast, and what a phone shows of the first table without scrolling sideways."""
-    for dark in (False, True):
-        browser.set_dark(dark)
-        low = browser.low_contrast()
-        check(f"contrast is at least 4.5 ({'dark' if dark else 'light'})", low == [], low[:5])
-    browser.set_dark(False)
+    check_contrast(browser)
     browser.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=False)
     edges = browser.run("""[...document.querySelector('#methods tbody tr').cells].slice(0, 3).map(
         (cell) => cell.getBoundingClientRect().right)""")

@@ -11,7 +11,7 @@ import tempfile
 import time
 
 import chromium
-from checks import check, finish, program
+from checks import check, check_contrast, check_ids, finish, program
 
 
 def removed_by(folder, names):
@@ -168,14 +168,8 @@ def check_looks(browser):
     check("controls have names", browser.run(
         "[...document.querySelectorAll('input, select, button')].every((part) => part.labels?.length > 0 ||"
         " part.getAttribute('aria-label') || part.textContent.trim())"))
-    check("ids are unique", browser.run(
-        "(() => { const all = [...document.querySelectorAll('[id]')].map((part) => part.id);"
-        " return new Set(all).size === all.length; })()"))
-    for dark in (False, True):
-        browser.set_dark(dark)
-        low = browser.low_contrast()
-        check(f"contrast is at least 4.5 ({'dark' if dark else 'light'})", low == [], low)
-    browser.set_dark(False)
+    check_ids(browser)
+    check_contrast(browser)
     browser.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=False)
     check("a phone does not scroll sideways", browser.run("document.documentElement.scrollWidth <= 390"),
           browser.run("document.documentElement.scrollWidth"))
