@@ -22,7 +22,7 @@ constexpr float kCrosses = 1.0F, kMeets = 3.0F;
 /// The root of the larger one: beams at most so many deviations aside are looked at.
 constexpr float kWindow = 1.7320508F;
 /// A margin for the rounding of squares of distances.
-constexpr float kRounding = 1e-6F;
+constexpr float kSquareRounding = 1e-6F;
 
 /// Rows of beams so far apart may leave a voxel between them, metres; it is asked for up to so many
 /// times the range from which it was seen.
@@ -227,7 +227,7 @@ struct BeamImage::Meeting {
 
   /// Stops at the first beam that hits: nothing outweighs it.
   void test(std::span<const Beam> beams) {
-    const float widest = square - kMeets * shape.radius * shape.radius - kRounding * square;
+    const float widest = square - kMeets * shape.radius * shape.radius - kSquareRounding * square;
     for (const Beam& b : beams) {
       const float ahead = b.x * mean.x() + b.y * mean.y() + b.z * mean.z();
       if (b.range < nearest || ahead * ahead < widest) continue;
