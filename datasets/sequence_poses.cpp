@@ -111,7 +111,8 @@ void make_poses(Sequence& sequence, PoseWork work, const OpenContext& context) {
   sequence.made_poses = std::move(made.poses);
   sequence.pose_doubts = std::move(made.doubts);
   sequence.scans = std::make_shared<ReposedSource>(sequence.scans, sequence.made_poses);
-  sequence.notes.insert(sequence.notes.end(), made.notes.begin(), made.notes.end());
+  if (!made.summary.empty()) sequence.notes.push_back(made.summary);
+  sequence.notes.insert(sequence.notes.end(), made.warnings.begin(), made.warnings.end());
   sequence.poses_file = estimates ? kEstimate : kRefine + (":" + sequence.poses_file);
   sequence.T_body_sensor.reset();
   if (sequence.stamps.size() != sequence.made_poses.size()) return;

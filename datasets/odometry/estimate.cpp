@@ -11,28 +11,22 @@
 
 #include "core/angle.h"
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/sampling.h"
 #include "core/text.h"
 #include "datasets/odometry/motion_search.h"
-#include "datasets/odometry/odometry.h"
 #include "datasets/registration/pose_fit.h"
 #include "datasets/registration/reposed_source.h"
 
 namespace raymoval::odometry {
 namespace {
 
-/// Of a scan that overlaps with the scans before it (see `Registered`).
-constexpr double kLeastMatched = 0.15, kLeastOverlap = 0.4;
 constexpr double kMostUncertain = 0.4;  // Of the scans of an estimate.
-constexpr double kLongGap = 1.0;        // seconds
 constexpr double kAtRest = 0.05;        // metres
 constexpr double kTurnAtRest = 0.5 * kDegree;
 constexpr MotionSigma kStepSigma{0.005, 0.0005};  // Of odometry from scan to scan.
 constexpr MotionSigma kFreeSigma{0.3, 0.02};      // The same where it is not determined.
 /// Of given poses: weak enough that a jump of 2 m does not bend hundreds of scans.
 constexpr MotionSigma kGivenSigma{5.0, 0.25};
-constexpr std::size_t kScansAtOnce = 8;
 /// Difference of overlaps: below it two motions fit equally, and above it one fits clearly better.
 constexpr double kEqual = 0.008, kClear = 0.01;
 constexpr double kPoorFit = 0.5;  // Of the median; scans of good estimates reach 0.68.
@@ -47,76 +41,8 @@ ScanScale scale_of(const ScanSource& scans) {
   throw DataError("no scan has a point, so poses cannot be estimated. Take other scans.");
 }
 
-/// The result of odometry.
-struct Steps {
-  std::vector<Registered> scans;
-  std::vector<double> times;
-  std::vector<std::string> names;
-
-  [[nodiscard]] std::vector<Pose> poses() const {
-    std::vector<Pose> poses;
-    for (const Registered& scan : scans) poses.push_back(scan.T_map_sensor);
-    return poses;
-  }
-};
-
-bool is_lost(const Registered& scan) {
-  return scan.matched < kLeastMatched || scan.overlap < kLeastOverlap;
-}
-
 bool is_uncertain(const Registered& scan) {
   return !scan.determined;
-}
-
-[[noreturn]] void throw_lost(const Steps& steps) {
-  const std::size_t now = steps.scans.size() - 1;
-  const double apart = steps.times[now] - steps.times[now - 1];
-  const std::string gap = apart < kLongGap ? ""
-                                           : " It was taken " + fixed_text(apart, 1) +
-                                                 " s after scan " + steps.names[now - 1] + ".";
-  throw DataError(fmt::format(
-      "scan {}: does not overlap enough with the scans before it to estimate its pose: {} of its "
-      "points are near their surfaces (expected at least {}), and {} of these are on them (at "
-      "least {}).{} Estimate the scans before and after it by themselves (--frames), or take the "
-      "poses of a program that also uses an IMU: --poses FILE.",
-      steps.names[now], percent_text(steps.scans[now].matched), percent_text(kLeastMatched),
-      percent_text(steps.scans[now].overlap), percent_text(kLeastOverlap), gap));
-}
-
-/// How odometry begins, and over how many scans.
-struct Course {
-  std::size_t scans;
-  std::optional<Pose> first_motion = std::nullopt;
-  bool may_be_lost = false;  ///< Else a scan that does not overlap is an error.
-};
-
-/// Runs odometry over scans. They are read in parallel, some at a time.
-/// @param given null, or poses whose motions are a second guess
-Steps odometry_of(const MovingScans& input, const Course& course, const std::vector<Pose>* given) {
-  Odometry odometry(input.scale, course.first_motion);
-  Steps steps;
-  const std::size_t count = course.scans;
-  if (input.progress != nullptr) input.progress->begin("estimating poses", count);
-  std::vector<Scan> scans;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i % kScansAtOnce == 0) {
-      scans.assign(std::min(kScansAtOnce, count - i), {});
-      parallel_for(input.threads, scans.size(), 1,
-                   [&](std::size_t k) { scans[k] = input.scans.load(i + k); });
-    }
-    if (input.cancel != nullptr && input.cancel->load()) throw Cancelled();
-    const Scan& scan = scans[i % kScansAtOnce];
-    std::optional<Pose> hint;
-    if (given != nullptr && i > 0) hint = (*given)[i - 1].inverse() * (*given)[i];
-    steps.times.push_back(scan.time_s);
-    steps.names.push_back(scan.name);
-    steps.scans.push_back(odometry.add(
-        scan, input.point_times ? input.point_times(scan) : std::vector<double>(), hint));
-    if (!course.may_be_lost && is_lost(steps.scans.back())) throw_lost(steps);
-    if (input.progress != nullptr) input.progress->advance();
-  }
-  if (input.progress != nullptr) input.progress->end();
-  return steps;
 }
 
 /// The motions from scan to scan.
@@ -175,14 +101,14 @@ void check_certain(const Steps& steps) {
                   "uses an IMU or odometry: --poses FILE.");
 }
 
-void note_uncertain(const Steps& steps, std::vector<std::string>& notes) {
+void warn_of_uncertain(const Steps& steps, std::vector<std::string>& warnings) {
   if (count_uncertain(steps) > 0) {
-    notes.push_back(uncertain_text(steps) + " There the motion before continues.");
+    warnings.push_back(uncertain_text(steps) + " There the motion before continues.");
   }
   for (std::size_t i = 1; i < steps.times.size(); ++i) {
     const double gap = steps.times[i] - steps.times[i - 1];
     if (gap < kLongGap) continue;
-    notes.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "There is no scan for {} s between {} and {}; their motion is estimated across the gap.",
         fixed_text(gap, 1), steps.names[i - 1], steps.names[i]));
   }
@@ -356,16 +282,16 @@ PoseEstimate estimate_poses(MovingScans input) {
   auto [steps, estimate, better_motion] = best_attempt(input);
   check_certain(steps);
   if (is_at_rest(estimate.poses)) {
-    estimate.notes.push_back(
+    estimate.warnings.push_back(
         "The sensor was at rest, or all that it sees moves along with it: the estimated poses "
         "differ by less than 0.05 m and 0.5 degrees.");
   } else {
-    estimate.notes.push_back(
+    estimate.summary =
         fmt::format("The poses are estimated from the scans: a path of {} m with {}.",
                     fixed_text(registration::path_lengths(estimate.poses).back(), 1),
-                    counted_text(estimate.loops, "closed loop")));
+                    counted_text(estimate.loops, "closed loop"));
   }
-  note_uncertain(steps, estimate.notes);
+  warn_of_uncertain(steps, estimate.warnings);
   return estimate;
 }
 
@@ -388,16 +314,16 @@ PoseEstimate refine_poses(MovingScans input, const std::vector<Pose>& given) {
       "from " + fit_text(before) + " to " + fit_text(after) + " between overlapping scans";
   if (is_worse(after, before, moved)) {
     estimate.poses = given;
-    estimate.notes.push_back("The given poses are kept: refined poses would fit worse, " + change +
-                             ".");
+    estimate.warnings.push_back("The given poses are kept: refined poses would fit worse, " +
+                                change + ".");
     return estimate;
   }
-  estimate.notes.push_back(fmt::format(
+  estimate.summary = fmt::format(
       "The poses are refined: moved by a median of {} m and at most {} m, with {}. They fit {}.",
       fixed_text(moved.median, 3), fixed_text(moved.most, 3),
-      counted_text(estimate.loops, "closed loop"), change));
+      counted_text(estimate.loops, "closed loop"), change);
   estimate.poses = std::move(poses);
-  note_uncertain(steps, estimate.notes);
+  warn_of_uncertain(steps, estimate.warnings);
   return estimate;
 }
 

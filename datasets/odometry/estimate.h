@@ -11,10 +11,11 @@ namespace raymoval::odometry {
 
 /// Estimated poses, and what the user should know about them.
 struct PoseEstimate {
-  std::vector<Pose> poses;          ///< T_world_sensor of each scan.
-  std::vector<std::string> notes;   ///< Whole sentences.
-  std::vector<std::string> doubts;  ///< Reasons why they may be wrong, each as a clause.
-  std::size_t loops = 0;            ///< Returns to a place that were used.
+  std::vector<Pose> poses;            ///< T_world_sensor of each scan.
+  std::string summary;                ///< What was done, as a sentence; empty if nothing was.
+  std::vector<std::string> warnings;  ///< Whole sentences.
+  std::vector<std::string> doubts;    ///< Reasons why they may be wrong, each as a clause.
+  std::size_t loops = 0;              ///< Returns to a place that were used.
 };
 
 /// Estimates the poses of scans from the scans alone: odometry (see `Odometry`), then a pose graph

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "datasets/odometry/map_registration.h"
 #include "datasets/registration/pose_fit.h"
+#include "datasets/registration/station_grid.h"
 
 namespace raymoval::odometry {
 namespace {
@@ -35,25 +35,25 @@ struct Candidate {
   double drift;  ///< Metres that the poses may be off.
 };
 
+/// For each station, the nearest earlier one to which the path returned.
 std::vector<Candidate> candidates_of(const std::vector<Pose>& poses, double stride) {
   const std::vector<double> lengths = registration::path_lengths(poses);
-  std::vector<std::size_t> stations;
+  registration::StationGrid stations(poses, kNear * stride + kMostDrift);
   std::vector<Candidate> candidates;
+  std::size_t last = poses.size();
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (!stations.empty() && lengths[i] - lengths[stations.back()] < stride) continue;
-    std::optional<Candidate> best;
-    double nearest = 0.0;
-    for (const std::size_t from : stations) {
-      const double path = lengths[i] - lengths[from];
-      if (path < kPathStrides * stride) break;
-      const double drift = std::min(kDrift * path, kMostDrift);
-      const double apart = (poses[from].translation() - poses[i].translation()).norm();
-      if (apart > kNear * stride + drift || (best && apart >= nearest)) continue;
-      best = {from, i, drift};
-      nearest = apart;
-    }
-    if (best) candidates.push_back(*best);
-    stations.push_back(i);
+    if (last < poses.size() && lengths[i] - lengths[last] < stride) continue;
+    const Vector3d at = poses[i].translation();
+    const auto drift_since = [&](std::size_t from) {
+      return std::min(kDrift * (lengths[i] - lengths[from]), kMostDrift);
+    };
+    const std::size_t from = stations.nearest(at, i, [&](std::size_t station) {
+      return lengths[i] - lengths[station] >= kPathStrides * stride &&
+             (poses[station].translation() - at).norm() <= kNear * stride + drift_since(station);
+    });
+    if (from != i) candidates.push_back({from, i, drift_since(from)});
+    stations.add(i);
+    last = i;
   }
   return candidates;
 }
@@ -91,17 +91,7 @@ class LoopSearch {
   }
 
  private:
-  [[nodiscard]] ThinnedScan thin(std::size_t i) const {
-    if (input_.cancel != nullptr && input_.cancel->load()) throw Cancelled();
-    const Scan scan = input_.scans.load(i);
-    ScanMotion motion;
-    if (input_.point_times && poses_.size() > 1) {
-      const std::size_t before = i == 0 ? 0 : i - 1;
-      motion = {input_.point_times(scan), poses_[before].inverse() * poses_[before + 1],
-                times_[before + 1] - times_[before]};
-    }
-    return thinned(scan, motion, input_.scale);
-  }
+  [[nodiscard]] ThinnedScan thin(std::size_t i) const { return thinned(input_, poses_, times_, i); }
   /// A map of the scans within a stride of a scan, in its frame.
   [[nodiscard]] PlaneMap map_around(std::size_t centre) const {
     PlaneMap map(input_.scale.cell);
@@ -120,12 +110,7 @@ class LoopSearch {
       }
     }
     for (const std::size_t i : scans) {
-      const Pose T = poses_[centre].inverse() * poses_[i];
-      std::vector<Vector3d> points;
-      for (const Eigen::Vector3f& point : thin(i).dense) {
-        points.push_back(T * point.cast<double>());
-      }
-      map.add(points);
+      map.add(thin(i).dense, poses_[centre].inverse() * poses_[i]);
     }
     return map;
   }

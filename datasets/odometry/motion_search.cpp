@@ -72,7 +72,7 @@ class Track {
  public:
   Track(const SearchedScans& scans, double cell_m, const Pose& motion)
       : scans_(&scans), map_(cell_m), motion_(motion) {
-    add(scans.thin(0, motion));
+    map_.add(scans.thin(0, motion).dense);
   }
   /// @param poses null, or predictions in place of constant velocity
   void follow(std::size_t end, const std::vector<Pose>* poses = nullptr) {
@@ -91,7 +91,7 @@ class Track {
       if (next_ == 1) tried_.first = motion_;
       tried_.last = motion_;
       found_.push_back(found);
-      add(thin);
+      map_.add(thin.dense, pose_);
     }
   }
   /// With the means of the later half of the scans.
@@ -107,12 +107,6 @@ class Track {
   }
 
  private:
-  void add(const ThinnedScan& thin) {
-    std::vector<Vector3d> placed;
-    for (const Eigen::Vector3f& point : thin.dense) placed.push_back(pose_ * point.cast<double>());
-    map_.add(placed);
-  }
-
   const SearchedScans* scans_;
   PlaneMap map_;
   Pose pose_ = Pose::Identity(), motion_;
@@ -124,9 +118,7 @@ class Track {
 /// The direction along which the surfaces of two scans determine the motion least.
 Vector3d weakest_direction(const SearchedScans& scans, double cell_m, const Pose& guess) {
   PlaneMap map(cell_m);
-  std::vector<Vector3d> points;
-  for (const auto& point : scans.thin(0, guess).dense) points.push_back(point.cast<double>());
-  map.add(points);
+  map.add(scans.thin(0, guess).dense);
   Matrix3d normals = Matrix3d::Zero();
   for (const auto& match : map.match(scans.thin(1, guess).sparse, guess, kTryReach)) {
     normals += match.weight * match.normal * match.normal.transpose();

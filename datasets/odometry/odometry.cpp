@@ -60,9 +60,7 @@ void Odometry::learn(const Pose& deviation) {
 
 Pose Odometry::searched(const std::vector<Vector3f>& points, const Pose& guess) const {
   PlaneMap own(map_.cell());
-  std::vector<Vector3d> placed;
-  for (const Vector3f& point : points) placed.push_back(point.cast<double>());
-  own.add(placed);
+  own.add(points);
   // On planes and rings, motions look alike.
   const std::vector<Vector3f> rough = few_of(own.rough(points), kFewPoints);
   if (rough.size() < kFewestRough) return guess;
@@ -118,10 +116,7 @@ Registered Odometry::registered(const ThinnedScan& thin, const std::vector<Pose>
 }
 
 void Odometry::extend(const ThinnedScan& thin, const Pose& T_map_sensor, double time_s) {
-  std::vector<Vector3d> placed;
-  placed.reserve(thin.dense.size());
-  for (const Vector3f& point : thin.dense) placed.push_back(T_map_sensor * point.cast<double>());
-  map_.add(placed);
+  map_.add(thin.dense, T_map_sensor);
   if ((T_map_sensor.translation() - forgot_at_).norm() > kForgetEvery) {
     map_.forget_beyond(T_map_sensor.translation(), kMapRadius);
     forgot_at_ = T_map_sensor.translation();

@@ -2,6 +2,7 @@
 #include "datasets/odometry/plane_map.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +14,19 @@ using Eigen::Vector3f;
 
 constexpr std::uint32_t kFewestPoints = 5;
 constexpr std::uint32_t kFullCell = 200;  // More do not change a plane, and old ones do not drift.
-constexpr float kMostThickness = 0.12F;   // Standard deviation across a plane, of the cell's edge.
+/// Standard deviation across a plane: at most this share of the cell's edge, so that the foot of a
+/// wall with some ground has no plane, or, in small cells, this noise of the sensor, metres.
+constexpr float kMostThickness = 0.06F, kNoise = 0.025F;
 /// Least and full standard deviation across a strip of points on a plane, of the cell's edge.
 constexpr float kLeastWidth = 0.12F, kFullWidth = 0.29F;
+
+/// The cells are turned against the frame of the map. Walls and floors are often parallel to the
+/// axes of the first scan, and at round distances they would lie on the faces of cells.
+Eigen::Matrix3d turn_of_cells() {
+  static const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.6, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  return turn;
+}
 
 }  // namespace
 
@@ -40,11 +51,10 @@ void PlaneMap::fit(Cell& cell, double cell_m) {
   const auto edge = static_cast<float>(cell_m);
   const float thickness = std::sqrt(std::max(solver.eigenvalues()[0], 0.0F));
   const float width = std::sqrt(std::max(solver.eigenvalues()[1], 0.0F));
-  const bool is_plane =
-      thickness <= kMostThickness * edge && width >= kLeastWidth * edge && width > 3.0F * thickness;
+  cell.is_rough = thickness > std::max(kMostThickness * edge, kNoise);
+  const bool is_plane = !cell.is_rough && width >= kLeastWidth * edge && width > 3.0F * thickness;
   cell.mean = mean;
   cell.weight = std::min(1.0F, std::pow(width / (kFullWidth * edge), 4.0F));
-  cell.is_rough = thickness > kMostThickness * edge;
   cell.normal = is_plane ? Vector3f(solver.eigenvectors().col(0)) : Vector3f::Zero();
 }
 
@@ -80,11 +90,16 @@ void PlaneMap::add(Level& level, const std::vector<Vector3d>& points) {
   }
 }
 
-void PlaneMap::add(const std::vector<Vector3d>& points) {
-  for (Level& level : levels_) add(level, points);
+void PlaneMap::add(const std::vector<Vector3f>& points, const Pose& T_map_sensor) {
+  const Pose T_cells_sensor = turn_of_cells() * T_map_sensor;
+  std::vector<Vector3d> placed;
+  placed.reserve(points.size());
+  for (const Vector3f& point : points) placed.push_back(T_cells_sensor * point.cast<double>());
+  for (Level& level : levels_) add(level, placed);
 }
 
-void PlaneMap::forget_beyond(const Vector3d& centre, double radius) {
+void PlaneMap::forget_beyond(const Vector3d& centre_of_map, double radius) {
+  const Vector3d centre = turn_of_cells() * centre_of_map;
   for (Level& level : levels_) {
     std::vector<Cell> kept;
     for (const Cell& cell : level.cells) {
@@ -131,8 +146,9 @@ std::optional<Vector3d> PlaneMap::to_nearest(const Vector3d& at, double reach) c
 
 std::vector<Vector3f> PlaneMap::rough(const std::vector<Vector3f>& points) const {
   std::vector<Vector3f> found;
+  const Eigen::Matrix3d turn = turn_of_cells();
   for (const Vector3f& point : points) {
-    const Cell* cell = levels_[0].find(point.cast<double>());
+    const Cell* cell = levels_[0].find(turn * point.cast<double>());
     if (cell != nullptr && cell->is_rough) found.push_back(point);
   }
   return found;
@@ -141,8 +157,9 @@ std::vector<Vector3f> PlaneMap::rough(const std::vector<Vector3f>& points) const
 double PlaneMap::closeness(const std::vector<Vector3f>& points, const Pose& T_map_sensor,
                            double reach) const {
   double sum = 0.0;
+  const Pose T_cells_sensor = turn_of_cells() * T_map_sensor;
   for (const Vector3f& point : points) {
-    const auto to = to_nearest(T_map_sensor * point.cast<double>(), reach);
+    const auto to = to_nearest(T_cells_sensor * point.cast<double>(), reach);
     if (to) sum += 1.0 - to->norm() / reach;
   }
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
@@ -154,8 +171,10 @@ registration::Matches PlaneMap::match(const std::vector<Vector3f>& points, const
   matches.reserve(points.size());
   int first = 0;
   while (first + 1 < kLevels && levels_[first].cell_m < reach) ++first;
+  const Eigen::Matrix3d turn = turn_of_cells(), back = turn.transpose();
+  const Pose T_cells_sensor = turn * T_map_sensor;
   for (const Vector3f& point : points) {
-    const Vector3d at = T_map_sensor * point.cast<double>();
+    const Vector3d at = T_cells_sensor * point.cast<double>();
     for (int k = first; k < kLevels; ++k) {
       const Cell* cell = levels_[k].find(at);
       if (cell == nullptr) continue;
@@ -163,16 +182,17 @@ registration::Matches PlaneMap::match(const std::vector<Vector3f>& points, const
         if (k > 0) continue;
         const auto to = to_nearest(at, std::min(reach, 0.5 * cell_m_));
         for (int axis = 0; to && axis < 3; ++axis) {
-          matches.push_back({at, Vector3d::Unit(axis), -(*to)[axis], kRoughWeight});
+          matches.push_back({back * at, back.col(axis), -(*to)[axis], kRoughWeight});
         }
         break;
       }
       const Vector3d normal = cell->normal.cast<double>();
       const double distance =
           normal.dot(at - centre_of(*cell, levels_[k].cell_m) - cell->mean.cast<double>());
-      const Vector3d ray = (at - T_map_sensor.translation()).normalized();
+      const Vector3d ray = (at - T_cells_sensor.translation()).normalized();
       const double weight = std::max<double>(cell->weight, std::pow(normal.dot(ray), 2));
-      if (std::abs(distance) <= reach) matches.push_back({at, normal, distance, weight});
+      if (std::abs(distance) <= reach)
+        matches.push_back({back * at, back * normal, distance, weight});
       break;
     }
   }

@@ -26,8 +26,9 @@ class PlaneMap {
   /// @param cell_m edge of the smallest cells, metres
   explicit PlaneMap(double cell_m);
 
-  /// @param points in the frame of the map, at most one per `point_spacing`
-  void add(const std::vector<Eigen::Vector3d>& points);
+  /// @param points in the frame of a sensor
+  /// @param T_map_sensor of that sensor
+  void add(const std::vector<Eigen::Vector3f>& points, const Pose& T_map_sensor = Pose::Identity());
   /// Removes the cells farther than `radius` from `centre`, metres.
   void forget_beyond(const Eigen::Vector3d& centre, double radius);
 

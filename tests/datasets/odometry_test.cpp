@@ -53,6 +53,26 @@ FlatWorld round_trip() {
   return world;
 }
 
+/// The scans of another source, by a sensor whose axes are turned.
+class TurnedScans : public ScanSource {
+ public:
+  TurnedScans(const ScanSource& whole, const Eigen::Matrix3d& turn) : whole_(whole), turn_(turn) {}
+  [[nodiscard]] std::size_t size() const override { return whole_.size(); }
+  [[nodiscard]] Pose pose(std::size_t index) const override {
+    return whole_.pose(index) * Pose(turn_.transpose());
+  }
+  [[nodiscard]] Scan load(std::size_t index) const override {
+    Scan scan = whole_.load(index);
+    for (Eigen::Vector3f& point : scan.points) point = turn_.cast<float>() * point;
+    return scan;
+  }
+  [[nodiscard]] const SensorModel& sensor() const override { return whole_.sensor(); }
+
+ private:
+  const ScanSource& whole_;
+  Eigen::Matrix3d turn_;
+};
+
 /// Largest distance of poses from the truth, relative to the first pose, metres.
 double error_of(const std::vector<Pose>& poses, const ScanSource& truth) {
   double most = 0.0;
@@ -65,20 +85,20 @@ double error_of(const std::vector<Pose>& poses, const ScanSource& truth) {
 }
 
 std::string all_notes(const PoseEstimate& estimate) {
-  std::string text;
-  for (const std::string& note : estimate.notes) text += note + '\n';
+  std::string text = estimate.summary + '\n';
+  for (const std::string& warning : estimate.warnings) text += warning + '\n';
   return text;
 }
 
 }  // namespace
 
 TEST_CASE("a cell has the plane of its points, and no plane if they fill it", "[odometry]") {
-  std::vector<Vector3d> wall, heap;
+  std::vector<Eigen::Vector3f> wall, heap;
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> any(0.0, 0.5);
+  std::uniform_real_distribution<float> any(0.0F, 0.5F);
   for (int i = 0; i < 60; ++i) {
-    wall.emplace_back(0.2, any(random), any(random));
-    heap.emplace_back(5.0 + any(random), any(random), any(random));
+    wall.emplace_back(0.2F, any(random), any(random));
+    heap.emplace_back(5.0F + any(random), any(random), any(random));
   }
   PlaneMap map(0.5);
   map.add(wall);
@@ -89,7 +109,7 @@ TEST_CASE("a cell has the plane of its points, and no plane if they fill it", "[
   CHECK(std::abs(beside[0].distance) == Approx(0.03).margin(1e-4));
   CHECK(std::abs(beside[0].normal.x()) == Approx(1.0).margin(1e-4));
   // A point of the heap is matched with a point, along three axes.
-  const auto heaped = map.match({heap[0].cast<float>()}, Pose::Identity(), 0.1);
+  const auto heaped = map.match({heap[0]}, Pose::Identity(), 0.1);
   REQUIRE(heaped.size() == 3);
   for (const auto& match : heaped) CHECK(match.distance == Approx(0.0).margin(1e-6));
   CHECK(map.match({{9.0F, 9.0F, 9.0F}}, Pose::Identity(), 0.1).empty());
@@ -97,7 +117,7 @@ TEST_CASE("a cell has the plane of its points, and no plane if they fill it", "[
 
 TEST_CASE("cells far away are forgotten", "[odometry]") {
   PlaneMap map(0.5);
-  map.add({{0.1, 0.1, 0.1}, {30.0, 0.0, 0.0}});
+  map.add({{0.1F, 0.1F, 0.1F}, {30.0F, 0.0F, 0.0F}});
   CHECK(map.size() == 2);
   map.forget_beyond(Vector3d::Zero(), 20.0);
   CHECK(map.size() == 1);
@@ -160,6 +180,26 @@ TEST_CASE("the estimate does not depend on the order of the points", "[odometry]
   FlatWorld world = round_trip();
   world.shuffle();
   CHECK(error_of(estimate_poses({world}).poses, world) < 0.05);
+}
+
+TEST_CASE("estimates do not depend on where surfaces lie, nor on the axes of the sensor",
+          "[odometry]") {
+  const Eigen::AngleAxisd turns[] = {Eigen::AngleAxisd(0.0, Vector3d::UnitZ()),
+                                     Eigen::AngleAxisd(90.0 * kDegree, Vector3d::UnitZ()),
+                                     Eigen::AngleAxisd(45.0 * kDegree, Vector3d::UnitX()),
+                                     Eigen::AngleAxisd(70.0 * kDegree, Vector3d(3, -1, 2) / 3.742)};
+  // From the first scan, all surfaces of the room are at multiples of 0.5 m, the size of cells.
+  for (const Vector3d& shift : {Vector3d(0, 0, 0), Vector3d(0.25, 0.1, 0.2)}) {
+    FlatWorld world;
+    for (int i = 0; i < 10; ++i) world.scan(room(shift), pose_at(0.2 * i, 0.02 * i * i, 2.0 * i));
+    for (const Eigen::AngleAxisd& turn : turns) {
+      CAPTURE(shift.transpose(), turn.axis().transpose(), turn.angle());
+      const TurnedScans turned(world, turn.toRotationMatrix());
+      MovingScans input{turned};
+      input.scale = {5.0, 0.5};
+      CHECK(error_of(estimate_poses(input).poses, turned) < 0.02);
+    }
+  }
 }
 
 TEST_CASE("a sensor at rest is reported, and does not drift", "[odometry]") {
@@ -345,6 +385,23 @@ TEST_CASE("noise, a jump and drift on a return are refined away", "[odometry]") 
     CHECK(error_of(given, world) > 0.3);
     CHECK(error_of(refined.poses, world) < 0.06);
     CHECK(all_notes(refined).find("The poses are refined") != std::string::npos);
+  }
+}
+
+TEST_CASE("refined poses do not depend on where the world's origin lies and its axes point",
+          "[odometry]") {
+  const FlatWorld world = round_trip();
+  const Pose other = Eigen::Translation3d(1234.5, -678.25, 9.0) *
+                     Eigen::AngleAxisd(33.0 * kDegree, Vector3d::UnitZ());
+  std::vector<Pose> given, moved;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    given.push_back(Eigen::Translation3d(0.0, i < 25 ? 0.0 : 0.5, 0.0) * world.pose(i));
+    moved.push_back(other * given.back());
+  }
+  const PoseEstimate refined = refine_poses({world}, given), there = refine_poses({world}, moved);
+  CHECK(error_of(refined.poses, world) < 0.05);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    CHECK((other * refined.poses[i]).isApprox(there.poses[i], 1e-6));
   }
 }
 
