@@ -10,7 +10,6 @@
 #include "core/parallel.h"
 #include "core/sampling.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
-#include "methods/raymoval_plus/objects/taken_places.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -182,69 +181,27 @@ std::vector<Track> followed(const std::vector<std::vector<ObjectSummary>>& scans
   return tracker.finish();
 }
 
-/// An object of a track on which scans agree for longer than its motion explains.
-struct Passing {
-  std::size_t scan;
-  ObjectSummary object;
-  double explained;  ///< By its motion: a number of scans.
-};
+/// Whether one of a track's objects goes on, and scans hit its place no longer than that explains.
+bool passes_by(const Track& track, std::size_t at, const Journey& journey,
+               const Parameters& parameters) {
+  return journey.motion && goes_on(track, at, *journey.motion, parameters) &&
+         is_explained(track.nodes[at].object, *journey.motion, parameters);
+}
 
-/// What tracks say of the objects.
-struct Findings {
-  std::vector<std::vector<int>> marked;  ///< Clusters of each scan.
-  std::vector<Passing> passing;
-};
+/// Clusters of each scan.
+using Marked = std::vector<std::vector<int>>;
 
 /// Adds what one track says.
-void judge(const Track& track, const Parameters& parameters, Findings& findings) {
+void judge(const Track& track, const Parameters& parameters, Marked& marked) {
   const auto journey = journey_of(track, parameters);
   if (!journey) return;
   for (std::size_t k = 0; k < track.nodes.size(); ++k) {
     const auto& [scan, object] = track.nodes[k];
     if (is_dynamic(object, parameters)) continue;
-    if (belongs(track, k, *journey, parameters)) {
-      findings.marked[scan].push_back(object.cluster);
-      continue;
-    }
-    const auto& motion = journey->motion;
-    if (!motion || !goes_on(track, k, *motion, parameters)) continue;
-    findings.passing.push_back({scan, object, scans_explained(object, *motion, parameters)});
-  }
-}
-
-/// What tracks say, forward and backward in time.
-Findings follow_all(const std::vector<std::vector<ObjectSummary>>& scans,
-                    const Parameters& parameters, int threads) {
-  std::array<Findings, 2> found;
-  parallel_for(threads, found.size(), 1, [&](std::size_t i) {
-    found[i].marked.resize(scans.size());
-    for (const Track& track : followed(scans, i == 1, ObjectTracker(parameters))) {
-      judge(track, parameters, found[i]);
-    }
-  });
-  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    std::vector<int>& marked = found[0].marked[scan];
-    marked.insert(marked.end(), found[1].marked[scan].begin(), found[1].marked[scan].end());
-    sort_and_unite(marked);
-  }
-  found[0].passing.insert(found[0].passing.end(), found[1].passing.begin(), found[1].passing.end());
-  return std::move(found[0]);
-}
-
-/// The places of all objects that are dynamic or marked.
-TakenPlaces taken_places(const std::vector<std::vector<ObjectSummary>>& scans,
-                         const std::vector<std::vector<int>>& marked,
-                         const Parameters& parameters) {
-  TakenPlaces places;
-  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    for (const ObjectSummary& object : scans[scan]) {
-      const bool is_marked =
-          std::binary_search(marked[scan].begin(), marked[scan].end(), object.cluster);
-      if (is_marked || is_dynamic(object, parameters)) places.add(scan, object);
+    if (belongs(track, k, *journey, parameters) || passes_by(track, k, *journey, parameters)) {
+      marked[scan].push_back(object.cluster);
     }
   }
-  places.sort();
-  return places;
 }
 
 }  // namespace
@@ -271,15 +228,19 @@ std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
     const RunContext& context) {
   const StageScope timed(context.times, "tracks");
-  Findings findings = follow_all(scans, parameters, context.threads);
-  // Where others stood, scans agree on what passes for as long as these stood there.
-  const TakenPlaces places = taken_places(scans, findings.marked, parameters);
-  for (const auto& [scan, object, explained] : findings.passing) {
-    if (object.hits > explained + places.scans_at(object, parameters.voxel_size)) continue;
-    findings.marked[scan].push_back(object.cluster);
+  std::array<Marked, 2> found;  // Forward and backward in time.
+  parallel_for(context.threads, found.size(), 1, [&](std::size_t i) {
+    found[i].resize(scans.size());
+    for (const Track& track : followed(scans, i == 1, ObjectTracker(parameters))) {
+      judge(track, parameters, found[i]);
+    }
+  });
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    std::vector<int>& marked = found[0][scan];
+    marked.insert(marked.end(), found[1][scan].begin(), found[1][scan].end());
+    sort_and_unite(marked);
   }
-  for (std::vector<int>& clusters : findings.marked) sort_and_unite(clusters);
-  return std::move(findings.marked);
+  return std::move(found[0]);
 }
 
 }  // namespace raymoval::raymoval_plus_method

@@ -82,13 +82,9 @@ double scans_passing(const ObjectSummary& object, const Motion& motion,
   return (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
 }
 
-double scans_explained(const ObjectSummary& object, const Motion& motion,
-                       const Parameters& parameters) {
-  return parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
-}
-
 bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
-  return object.hits <= scans_explained(object, motion, parameters);
+  return object.hits <=
+         parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
 }
 
 std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSummary& found,

@@ -38,9 +38,6 @@ inline constexpr double kScansMore = 2.0;
 /// speed.
 double scans_passing(const ObjectSummary& object, const Motion& motion,
                      const Parameters& parameters);
-/// The number of scans that may agree with it for its length and speed to explain them.
-double scans_explained(const ObjectSummary& object, const Motion& motion,
-                       const Parameters& parameters);
 /// Whether scans agree on an object no longer than its length and speed explain.
 bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters);
 
