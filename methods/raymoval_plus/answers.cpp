@@ -9,7 +9,6 @@
 #include "methods/raymoval_plus/objects/journeys.h"
 #include "methods/raymoval_plus/objects/low_points.h"
 #include "methods/raymoval_plus/objects/point_evidence.h"
-#include "methods/raymoval_plus/objects/point_runs.h"
 #include "methods/raymoval_plus/objects/reasons.h"
 
 namespace raymoval::raymoval_plus_method {
@@ -42,8 +41,7 @@ class Answers {
         context_(context),
         of_scan_(for_one_of_many(context)),
         unmarked_(scans.size()),
-        objects_(scans.size()),
-        runs_(scans.size()) {}
+        objects_(scans.size()) {}
 
   void give() {
     for_scans_at_once("raymoval_plus, objects", "objects", scans_, context_,
@@ -70,19 +68,17 @@ class Answers {
   }
   void segment(Scan scan, SegmentedScan& segmented) const {
     locate(std::move(scan), segmented);
-    find_clusters(parameters_, of_scan_, segmented);                    // 6
-    divide_clusters(maps_.standing, parameters_, of_scan_, segmented);  // 6
+    find_clusters(parameters_, of_scan_, segmented);    // 6
+    add_evidence_of_points(maps_.standing, segmented);  // 6
   }
 
   void decide_without_tracks(Scan scan) {
     const std::size_t index = scan.index;
     workspaces_.with_one([&](SegmentedScan& segmented) {
       segment(std::move(scan), segmented);
-      objects_[index] =
-          summarise_objects(segmented, maps_.standing, maps_.steps, parameters_, of_scan_);
-      runs_[index] = remembered_points(segmented, objects_[index], parameters_);
+      objects_[index] = summarise_objects(segmented, maps_.standing, parameters_, of_scan_);
       Verdicts verdicts =
-          decide_objects(segmented, maps_.standing, {}, parameters_, of_scan_);  // 6
+          decide_objects(segmented, {}, maps_.standing, parameters_, of_scan_);  // 6
       decide_low_points(segmented, maps_, parameters_, of_scan_, verdicts);      // 8
       unmarked_.set(index, removed_points(verdicts));
     });
@@ -91,45 +87,9 @@ class Answers {
   void answer_with_tracks(Scan scan) {
     const std::size_t index = scan.index;
     workspaces_.with_one([&](SegmentedScan& segmented) {
-      if (!asks_for_more(context_) && all_are_remembered(index)) {
-        locate(std::move(scan), segmented);
-        Verdicts verdicts = remembered_verdicts(segmented);                    // 6, 7
-        decide_low_points(segmented, maps_, parameters_, of_scan_, verdicts);  // 8
-        sink_.accept(index, removed_points(verdicts));
-      } else {
-        segment(std::move(scan), segmented);
-        answer(segmented, marked_[index], maps_, parameters_, sink_, of_scan_);  // 6 to 8
-      }
+      segment(std::move(scan), segmented);
+      answer(segmented, marked_[index], maps_, parameters_, sink_, of_scan_);  // 6 to 8
     });
-  }
-
-  [[nodiscard]] bool is_marked(std::size_t scan, const ObjectSummary& object) const {
-    const std::vector<int>& marked = marked_[scan];
-    return std::find(marked.begin(), marked.end(), object.cluster) != marked.end();
-  }
-  /// Whether the points of all objects that tracks marked in a scan are remembered.
-  [[nodiscard]] bool all_are_remembered(std::size_t scan) const {
-    const std::vector<ObjectSummary>& objects = objects_[scan];
-    for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (is_marked(scan, objects[k]) && !is_remembered(objects, k, parameters_)) return false;
-    }
-    return true;
-  }
-  /// The verdicts on a scan's points before step 8: low points are what their voxels are, and the
-  /// others what the answer without tracks says, but for those that tracks mark.
-  [[nodiscard]] Verdicts remembered_verdicts(const LocatedScan& located) const {
-    const std::size_t scan = located.scan.index;
-    Verdicts verdicts = located.verdict;
-    const Mask unmarked = unmarked_.get(scan);
-    for (std::size_t k = 0; k < verdicts.size(); ++k) {
-      if (located.height[k] < static_cast<float>(parameters_.object_height)) continue;
-      verdicts[k] = unmarked[k] != 0 ? Verdict::kDynamic : Verdict::kStatic;
-    }
-    for (const PointRun& run : runs_[scan]) {
-      if (!is_marked(scan, objects_[scan][run.object])) continue;
-      std::fill_n(verdicts.begin() + run.first, run.count, Verdict::kDynamic);
-    }
-    return verdicts;
   }
 
   const Terrain& terrain_;
@@ -141,8 +101,7 @@ class Answers {
   RunContext of_scan_;  ///< What the steps of one scan get.
   Workspaces<SegmentedScan> workspaces_{[] { return std::make_unique<SegmentedScan>(); }};
   MaskStore unmarked_;                               ///< The answers without tracks.
-  std::vector<std::vector<ObjectSummary>> objects_;  ///< Of each scan, ...
-  std::vector<std::vector<PointRun>> runs_;          ///< ... and where their points are.
+  std::vector<std::vector<ObjectSummary>> objects_;  ///< Of each scan.
   std::vector<std::vector<int>> marked_;             ///< Clusters of each scan.
 };
 
@@ -156,7 +115,7 @@ void answer_from_map(const Terrain& terrain, const EvidenceMaps& maps, const Par
 void answer(const SegmentedScan& scan, const std::vector<int>& marked, const EvidenceMaps& maps,
             const Parameters& parameters, RemovalSink& sink, const RunContext& context) {
   const Verdicts by_objects =
-      decide_objects(scan, maps.standing, marked, parameters, context);  // 6, 7
+      decide_objects(scan, marked, maps.standing, parameters, context);  // 6, 7
   Verdicts decided = by_objects;
   decide_low_points(scan, maps, parameters, context, decided);  // 8
   sink.accept(scan.scan.index, removed_points(decided));
@@ -164,7 +123,7 @@ void answer(const SegmentedScan& scan, const std::vector<int>& marked, const Evi
     context.reasons->accept(scan.scan.index, reasons_for(scan, maps, by_objects, decided));
   }
   if (context.evidence != nullptr) {
-    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, maps, parameters));
+    context.evidence->accept(scan.scan.index, evidence_of_points(scan, decided, maps));
   }
 }
 

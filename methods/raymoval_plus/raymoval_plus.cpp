@@ -3,6 +3,7 @@
 #include "methods/raymoval_plus/raymoval_plus.h"
 
 #include <array>
+#include <numeric>
 #include <span>
 
 #include "methods/common/prepared_scans.h"
@@ -10,6 +11,7 @@
 #include "methods/common/side_by_side.h"
 #include "methods/raymoval_plus/answers.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
+#include "methods/raymoval_plus/evidence/things.h"
 #include "methods/raymoval_plus/evidence/vote.h"
 #include "methods/raymoval_plus/objects/objects.h"
 #include "methods/raymoval_plus/objects/reasons.h"
@@ -56,7 +58,7 @@ class Run {
   /// One pass, in which each scan is answered from those up to a fixed time after it.
   void online() {
     WaitingScans waiting(parameters_.delay);
-    RecentObjects recent(parameters_, maps_.steps);
+    RecentObjects recent(parameters_);
     const auto answer_first = [&] {
       answer_by_now(waiting.first(), recent);
       waiting.remove_first();
@@ -71,7 +73,7 @@ class Run {
           [&] { find_clusters(parameters_, beside_others_, scan); });  // 6
       if (parameters_.delay > 0.0) {
         look_up_verdicts(maps_, context_, scan);
-        count_points(scan);
+        add_evidence_of_points(maps_.standing, scan);
         recent.take(scan, maps_.standing, context_);
       }
       while (waiting.is_due()) answer_first();
@@ -104,6 +106,10 @@ class Run {
           located.scan = std::move(scan);
           find_terrain_cells(terrain_, parameters_, context, located);
           find_heights_and_cells(terrain_, maps_, parameters_, context, located);
+          thread_local std::unique_ptr<BeamImage> image;
+          image = std::make_unique<BeamImage>(scans_.sensor(), parameters_);
+          image->fill(located.scan);
+          image->find_extensions(located.extensions);
         },
         [&](LocatedScan& located, const RunContext& context) {
           add_to_maps(parameters_, context, located, maps_);
@@ -111,7 +117,7 @@ class Run {
   }
 
   void find_evidence() {
-    std::vector<RangeImage> images(scans_in_a_batch(scans_, context_), image_);
+    std::vector<BeamImage> images(scans_in_a_batch(scans_, context_), image_);
     std::vector<PosedImage> posed(images.size());
     for_scan_batches("raymoval_plus, evidence", scans_, context_, [&](std::span<Scan> batch) {
       fill_images(batch, images, posed);
@@ -127,14 +133,17 @@ class Run {
       decide_all(parameters_, context_, *map);
       vote(parameters_, context_, *map);
     }
+    std::vector<std::uint32_t> all(maps_.standing.blocks().block_count());
+    std::iota(all.begin(), all.end(), 0U);
+    find_passes_outside(all, context_, maps_.standing);
   }
 
-  void fill_images(std::span<const Scan> batch, std::vector<RangeImage>& images,
+  void fill_images(std::span<const Scan> batch, std::vector<BeamImage>& images,
                    std::vector<PosedImage>& posed) const {
     const StageScope timed(context_.times, "range image");
     parallel_for(context_.threads, batch.size(), 1, [&](std::size_t i) {
       images[i].fill(batch[i]);
-      posed[i] = {&images[i], batch[i].T_world_sensor, batch[i].index};
+      posed[i] = {&images[i], batch[i].T_world_sensor.translation(), batch[i].index};
     });
   }
 
@@ -154,6 +163,7 @@ class Run {
                              "terrain and range image");
       side_by_side(context_, add_to_terrain, fill_image);
     }
+    image_.find_extensions(located.extensions);
     const bool is_due =
         located.scan.index % static_cast<std::size_t>(parameters_.terrain_period) == 0;
     if (parameters_.terrain && is_due) terrain_.update(context_);
@@ -163,13 +173,13 @@ class Run {
   /// Steps 2 to 4 for a scan that is read only once.
   void add_arrived(LocatedScan& located, WhenToDecide when) {
     const auto known = maps_.sizes();
-    const PosedImage posed{&image_, located.scan.T_world_sensor, located.scan.index};
-    add_to_maps(parameters_, context_, located, maps_);                  // 2
-    ask_earlier_scans(known, posed.T_world_sensor.translation(), when);  // 3, 4
+    const PosedImage posed{&image_, located.scan.T_world_sensor.translation(), located.scan.index};
+    add_to_maps(parameters_, context_, located, maps_);  // 2
+    ask_earlier_scans(known, posed.position, when);      // 3, 4
     for (EvidenceMap* const map : maps_.both()) {
       add_evidence(std::span(&posed, 1), parameters_, when, context_, *map);  // 3, 4
     }
-    earlier_scans_.keep(std::move(image_), posed.T_world_sensor, posed.scan);
+    earlier_scans_.keep(std::move(image_), posed.scan);
   }
 
   /// Steps 3 and 4 for the voxels that were added since the maps had so many.
@@ -199,7 +209,8 @@ class Run {
     vote(blocks, parameters_, context_, maps_.standing);                                    // 5
     vote(blocks_of(scan.ground_voxel, maps_.ground), parameters_, context_, maps_.ground);  // 5
     look_up_verdicts(maps_, context_, scan);
-    divide_clusters(maps_.standing, parameters_, context_, scan);  // 6
+    find_passes_outside(blocks, context_, maps_.standing);  // 6
+    add_evidence_of_points(maps_.standing, scan);           // 6
     recent.take(scan, maps_.standing, context_);
     recent.judge(maps_.standing, context_);
     answer(scan, recent.marked(scan.scan.index, context_), maps_, parameters_, sink_,
@@ -214,7 +225,7 @@ class Run {
   RunContext beside_others_ = for_one_of_many(context_);
   Terrain terrain_;
   EvidenceMaps maps_;
-  RangeImage image_;
+  BeamImage image_;
   EarlierScans earlier_scans_;
 };
 

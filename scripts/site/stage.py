@@ -57,7 +57,6 @@ SECTIONS = (
         ("", "methods/raymoval/README.md"),
         ("", "methods/raymoval_plus/README.md"),
         ("The image of first hits of raymoval", "methods/raymoval/KERNELS.md"),
-        ("Experiments with raymoval_plus", "methods/raymoval_plus/EXPERIMENTS.md"),
         ("", "methods/*/*.md"),
     )),
     ("Extend", (

@@ -17,16 +17,9 @@ namespace {
 /// Parameters that act on data only that the scenes here do not have, and why.
 const std::map<std::string, std::string> kNeedOtherData = {
     {"raymoval:online.group_gap", "clusters of one scan must stand a voxel apart"},
-    {"raymoval_plus.run_range", "a voxel must be seen through in a row by few scans only"},
-    {"raymoval_plus.height_scans", "beams must be even and far apart (see evidence_test)"},
-    {"raymoval_plus.track_slack", "an object must stand still for long and then move"},
     {"raymoval_plus.track_width", "a wide cluster must move"},
     {"raymoval_plus:online.tracks", "the scans are too few to follow anything"},
-    {"raymoval_plus:online.track_dynamic_share", "as for tracks"},
-    {"raymoval_plus:online.track_points", "as for tracks"},
     {"raymoval_plus:online.object_points", "a cluster of three points must be dynamic"},
-    {"raymoval_plus:online.terrain_drop",
-     "something dark must lie below the ground (see pits_test)"},
     {"raymoval_plus:online.low_points", "something dynamic must reach the ground"},
     {"beautymap.public_top", "a column must be higher than 30 slices (see beautymap_test)"},
     {"hmm_mos.map_scans", "what moves must be out of sight for some scans (see oracle_test)"},
@@ -37,9 +30,6 @@ const std::map<std::string, std::string> kNeedOtherData = {
     {"dynablox.frames_to_reset", "something must stay where it was free"},
     {"dynablox.max_weight", "free space must have been occupied for a while (see field_test)"},
     {"raymoval_plus:online.recent_scans", "as for tracks"},
-    {"raymoval_plus.outlast", "more scans must agree with what something passes (see vote_test)"},
-    {"raymoval_plus.ground_evidence",
-     "something must stand where no ground is seen (see variants_test)"},
     {"freedom.counts_to_revert", "something must stay in free space (see free_map_test)"},
     {"mapcleaner.noise_reflectance", "points must have reflectance (see ground_segmentation_test)"},
     {"mapcleaner.public_height", "the sensor must be much lower (see ground_segmentation_test)"},
@@ -264,8 +254,8 @@ TEST_CASE("raymoval_plus's parameters are without effect where their conditions 
   for (const char* const variant : {"offline", "online"}) {
     check_turned_off(std::string("raymoval_plus:") + variant, tested);
   }
-  CHECK(tested.count("track_slack tracks tracks") == 1);
-  CHECK(tested.count("cluster_gap objects low_points") == 1);
+  CHECK(tested.count("recent_scans tracks tracks") == 1);
+  CHECK(tested.count("object_points objects objects") == 1);
 }
 
 TEST_CASE("raymoval_plus's parameters act when they are said to", "[slow]") {

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/common/scan_cells.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "core/parallel.h"
-#include "methods/raymoval_plus/common/point_kernels.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
+
+/// The largest whole number that is not above `value`. `std::floor` is a call on machines of which
+/// no more than SSE2 is asked.
+std::int32_t floor_of(double value) {
+  const auto number = static_cast<std::int32_t>(value);
+  return number - static_cast<std::int32_t>(value < number);
+}
 
 /// Throws the error of the first point that is not in the lattice.
 void throw_outside(const Scan& scan, const Eigen::Vector3d& cells_a_metre) {
@@ -30,22 +38,31 @@ void find_cells(const Scan& scan, const Eigen::Vector3d& cells_a_metre, BesideCe
   const bool with_height = beside == BesideCells::kPartsAndHeight;
   cells.parts.resize(points);
   if (with_height) cells.height.resize(points);
-  kernels::PointsToCells whole;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(whole.rotation.data()) =
-      scan.T_world_sensor.linear();
-  Eigen::Map<Eigen::Vector3d>(whole.translation.data()) = scan.T_world_sensor.translation();
-  Eigen::Map<Eigen::Vector3d>(whole.cells_a_metre.data()) = cells_a_metre;
-  whole.limit = kVoxelLimit;
-  const kernels::PointKernels kernels = kernels::best_point_kernels();
+  const Eigen::Matrix3d R_world_sensor = scan.T_world_sensor.linear();
+  const Eigen::Vector3d position = scan.T_world_sensor.translation();
+  const std::array<std::int32_t*, 3> cell = {cells.x.data(), cells.y.data(), cells.z.data()};
   std::atomic<bool> inside = true;
   parallel_chunks(threads, points, kPointsATask, [&](std::size_t begin, std::size_t end) {
-    kernels::PointsToCells job = whole;
-    job.points = scan.points[begin].data();
-    job.count = end - begin;
-    const kernels::PointCells to{cells.x.data() + begin, cells.y.data() + begin,
-                                 cells.z.data() + begin, cells.parts.data() + begin,
-                                 with_height ? cells.height.data() + begin : nullptr};
-    if (!kernels.find_cells(job, to)) inside = false;
+    for (std::size_t k = begin; k < end; ++k) {
+      const double x = scan.points[k].x(), y = scan.points[k].y(), z = scan.points[k].z();
+      std::uint32_t parts = 0;
+      double world = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        world = R_world_sensor(axis, 0) * x + R_world_sensor(axis, 1) * y +
+                R_world_sensor(axis, 2) * z + position[axis];
+        const double in_cells = world * cells_a_metre[axis];
+        if (!(in_cells >= -kVoxelLimit && in_cells < kVoxelLimit + 1.0)) {
+          inside = false;
+          return;
+        }
+        const std::int32_t number = floor_of(in_cells);
+        const auto part = static_cast<std::uint32_t>((in_cells - number) * 256.0);
+        cell[static_cast<std::size_t>(axis)][k] = number;
+        parts |= std::min(part, 255U) << (8 * axis);
+      }
+      cells.parts[k] = parts;
+      if (with_height) cells.height[k] = static_cast<float>(world);
+    }
   });
   if (!inside) throw_outside(scan, cells_a_metre);
 }

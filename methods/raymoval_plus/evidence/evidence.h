@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "methods/raymoval_plus/common/parameters.h"
+#include "methods/raymoval_plus/evidence/beam_image.h"
 #include "methods/raymoval_plus/evidence/evidence_map.h"
-#include "methods/raymoval_plus/evidence/range_image.h"
 #include "methods/remover.h"
 
 namespace raymoval::raymoval_plus_method {
 
 /// The image of a scan, and where it was taken.
 struct PosedImage {
-  const RangeImage* image = nullptr;
-  Pose T_world_sensor = Pose::Identity();
-  std::size_t scan = 0;  ///< Its number.
+  const BeamImage* image = nullptr;
+  Eigen::Vector3d position;  ///< Of the sensor, world frame, metres.
+  std::size_t scan = 0;      ///< Its number.
 };
 
 /// When step 4 decides on voxels: after each scan, or by `decide_all` at the end.
@@ -41,90 +41,46 @@ class EarlierScans {
   /// @param center position of the sensor that found them, world frame, metres
   void add_evidence(std::size_t first_voxel, const Eigen::Vector3d& center, WhenToDecide when,
                     const RunContext& context, EvidenceMap& map) const;
-  /// Takes the next scan. One of `history_step` scans is kept, and at most the last
-  /// `history_scans`. The image that is left is to be filled anew.
+  /// Takes the next scan. The last `history_scans` are kept. The image that is left is to be filled
+  /// anew.
   /// @param scan its number
-  void keep(RangeImage&& image, const Pose& T_world_sensor, std::size_t scan);
+  void keep(BeamImage&& image, std::size_t scan);
 
  private:
   struct EarlierScan {
-    RangeImage image;
-    Pose T_sensor_world;
-    double sensor_height;  ///< Metres, world frame.
+    BeamImage image;
     std::size_t number;
   };
   Parameters parameters_;
-  std::size_t scans_ = 0;
   std::vector<EarlierScan> kept_;  ///< The oldest comes first.
 };
 
-/// What one scan says of a voxel.
-struct Observed {
-  Observation observation;
-  float range;       ///< Distance of the voxel from the sensor, metres.
-  std::size_t scan;  ///< The scan's number.
-  /// Whether none of its beams passes at the height of the voxel's points, and if so, if the scan
-  /// sees through it, at that of anything that stands in its column.
-  bool is_beside = false, is_beside_column = false;
-};
 /// Step 3 for one voxel: adds what one scan says. Scans come in order of time.
-void add_observation(const Observed& observed, const Parameters& parameters,
-                     VoxelEvidence& evidence);
+void add_observation(Observation observation, std::size_t scan, VoxelEvidence& evidence);
+
+/// The share of a voxel's observations that contradict it: scans that passed before the first hit
+/// or after the last one, from 0 to 1. Hits count up to ten, so that what stood for long and left
+/// can be told.
+[[nodiscard]] float contradiction(const VoxelEvidence& evidence);
+
+/// Whether so few scans hit a voxel that what is open around it counts as passing it.
+[[nodiscard]] bool has_few_hits(const VoxelEvidence& evidence);
+
+/// Whether many scans hit a voxel and next to none contradicts it.
+[[nodiscard]] bool is_firm(const VoxelEvidence& evidence);
 
 /// Step 4 for one voxel: static, dynamic or undecided.
 Verdict decide(const VoxelEvidence& evidence, const Parameters& parameters);
 
-/// The same for many voxels.
-class Decisions {
- public:
-  explicit Decisions(const Parameters& parameters);
-
-  [[nodiscard]] Verdict operator()(const VoxelEvidence& evidence) const {
-    if (evidence.agree_scans >= needed_.size()) return decide(evidence, parameters_);
-    if (evidence.leading_free >= run_ || evidence.trailing_free >= run_ ||
-        evidence.free_scans >= needed_[evidence.agree_scans]) {
-      return Verdict::kDynamic;
-    }
-    return evidence.agree_scans >= parameters_.static_agree ? Verdict::kStatic
-                                                            : Verdict::kUndecided;
-  }
-
- private:
-  Parameters parameters_;
-  int run_;                  ///< Scans in a row that show that something came or left.
-  std::vector<int> needed_;  ///< By scans that agree: the scans that must see through.
-};
-
-/// Of the scans that say something of what stands, hardly any sees through it: no more than this
-/// share of those that agree. Beams pass beside a pole.
-inline constexpr double kHardlyFree = 0.05;
-/// Whether hardly any scan sees through a voxel, or an object.
-template <class Evidence>
-bool is_hardly_seen_through(const Evidence& evidence) {
-  return evidence.free_scans <= kHardlyFree * evidence.agree_scans;
-}
-
-/// The numbers of the first and of the last scan that agree with a voxel.
-struct AgreeingSpan {
+/// The numbers of the first and of the last scan that hit a voxel. Where none does, a point's own
+/// scan is both.
+struct HitSpan {
   std::uint32_t first, last;
 };
-/// Where none agrees, a point's own scan is both.
-inline AgreeingSpan agreeing_span(const VoxelEvidence& evidence, std::size_t own_scan) {
-  if (evidence.agree_scans > 0) return {evidence.first_agree, evidence.last_agree};
+inline HitSpan hit_span(const VoxelEvidence& evidence, std::size_t own_scan) {
+  if (evidence.hits > 0) return {evidence.first_hit, evidence.last_hit};
   const auto own = static_cast<std::uint32_t>(own_scan);
   return {own, own};
 }
-
-/// Whether enough scans agree with a voxel for it to be settled, if any voxel is to be.
-bool is_settled(const VoxelEvidence& evidence, const Parameters& parameters);
-/// The same of a point's voxel; ground, which is in no voxel of what stands, is not.
-inline bool is_settled(std::uint32_t voxel, const EvidenceMap& map, const Parameters& parameters) {
-  return voxel != EvidenceMap::kNone && is_settled(map.evidence(voxel), parameters);
-}
-/// Whether so many scans agree with a voxel that its points tell at which heights it is seen
-/// through.
-bool is_heard_at_height(const VoxelEvidence& evidence, const Parameters& parameters);
-/// Whether a voxel is settled and no scan saw through it: it was there all the time.
-bool was_always_there(const VoxelEvidence& evidence, const Parameters& parameters);
 
 }  // namespace raymoval::raymoval_plus_method

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace raymoval::raymoval_plus_method {
@@ -13,25 +13,46 @@ namespace {
 /// ranges are measured. Whole numbers give the same sum in any order.
 constexpr double kParts = 256.0;
 /// With more points a sum of offsets could exceed 32 bits. The mean has long settled by then.
-constexpr std::uint32_t kMostPoints = 1U << 24;
+constexpr std::int32_t kMostPoints = 1U << 16;
+/// Added to the deviation of a voxel's points, metres: the noise of ranges and poses.
+constexpr double kLeastDeviation = 0.04;
+/// The points of a voxel are on a plane if their deviation along its normal is so much less than
+/// along the next axis. A beam that passes it ends so far behind the plane, beside that deviation.
+constexpr double kFlat = 0.7, kBehind = 0.1;
 /// So many blocks are compared at a time with what they were.
 constexpr std::uint32_t kComparedBlocks = 256;
 
 }  // namespace
 
 void EvidenceMap::add_point(std::uint32_t voxel, std::uint32_t parts) {
+  add_sample(voxel, static_cast<int>(parts & 0xFFU), static_cast<int>(parts >> 8U & 0xFFU),
+             static_cast<int>(upward(parts)));
+}
+
+void EvidenceMap::add_beside(std::uint32_t voxel, std::uint32_t parts,
+                             const Eigen::Vector3f& offset) {
+  const Eigen::Vector3f step = offset * static_cast<float>(kParts * inverse_);
+  add_sample(voxel, static_cast<int>(parts & 0xFFU) + static_cast<int>(std::lround(step.x())),
+             static_cast<int>(parts >> 8U & 0xFFU) + static_cast<int>(std::lround(step.y())),
+             static_cast<int>(upward(parts)) + static_cast<int>(std::lround(step.z())));
+}
+
+void EvidenceMap::add_sample(std::uint32_t voxel, int x, int y, int z) {
   if (mean_changed_[voxel] == 0) {
     mean_changed_[voxel] = 1;
     changed_.push_back(voxel);
   }
   Sums& sums = sums_[voxel];
   if (sums.count == kMostPoints) return;
-  sums.x += parts & 0xFFU;
-  sums.y += parts >> 8U & 0xFFU;
-  const std::uint32_t up = upward(parts);
-  sums.z += up;
-  sums.lowest = static_cast<std::uint8_t>(std::min<std::uint32_t>(sums.lowest, up));
-  sums.highest = static_cast<std::uint8_t>(std::max<std::uint32_t>(sums.highest, up));
+  sums.x += x;
+  sums.y += y;
+  sums.z += z;
+  sums.xx += x * x;
+  sums.yy += y * y;
+  sums.zz += z * z;
+  sums.xy += x * y;
+  sums.xz += x * z;
+  sums.yz += y * z;
   ++sums.count;
 }
 
@@ -55,7 +76,7 @@ std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot
   mean_changed_.push_back(0);
   tile.voxels.push_back(number);
   tile.places.resize(tile.places.size() + 3);
-  tile.spans.emplace_back();
+  tile.shapes.emplace_back();
   tile.evidence.emplace_back();
   return number;
 }
@@ -67,7 +88,7 @@ void EvidenceMap::update_means() {
     Tile& tile = tiles_[voxel.tile];
     const Eigen::Vector3f offset = (centroid(number) - tile.origin).cast<float>();
     std::copy_n(offset.data(), 3, tile.places.begin() + 3 * std::ptrdiff_t{voxel.place});
-    tile.spans[voxel.place] = span(number);
+    tile.shapes[voxel.place] = shape(number);
   }
   changed_.clear();
 }
@@ -79,33 +100,26 @@ Eigen::Vector3d EvidenceMap::centroid(std::size_t voxel) const {
   return (index(voxel).cast<double>() + offset) * size_;
 }
 
-HeightSpan EvidenceMap::span(std::size_t voxel) const {
+VoxelShape EvidenceMap::shape(std::size_t voxel) const {
   const Sums& sums = sums_[voxel];
-  const double mean = static_cast<double>(sums.z) / sums.count, part = size_ / kParts;
-  return {static_cast<float>((sums.lowest - mean) * part),
-          static_cast<float>((sums.highest - mean) * part)};
-}
-
-bool EvidenceMap::column_reaches(std::size_t voxel, double z, Blocks::Cursor& cursor) const {
-  VoxelIndex cell = index(voxel);
-  const int to = static_cast<int>(std::floor(z * inverse_)), step = to < cell.z() ? -1 : 1;
-  const int most_missing = static_cast<int>(std::lround(kColumnGap * inverse_));
-  for (int last = cell.z(); step * (cell.z() - last) <= most_missing + 1; cell.z() += step) {
-    if (blocks_.get(cell, cursor) == kNone) continue;
-    if (step * (cell.z() - to) >= 0) return true;
-    last = cell.z();
-  }
-  return false;
-}
-
-bool EvidenceMap::is_roof(std::size_t voxel, Blocks::Cursor& cursor) const {
-  const int away = static_cast<int>(std::lround(kRoofAlone * inverse_));
-  int beside = 0;
-  for (VoxelIndex d(0, 0, -away); d.z() <= away; ++d.z()) {
-    if (d.z() == 0 || blocks_.get(index(voxel) + d, cursor) == kNone) continue;
-    if (std::abs(d.z()) > 1 || ++beside > 1) return false;
-  }
-  return true;
+  const double n = 1.0 / sums.count, scale = size_ / kParts;
+  const Eigen::Vector3d mean = Eigen::Vector3d(sums.x, sums.y, sums.z) * n;
+  Eigen::Matrix3d covariance;
+  const auto d = [](std::int64_t sum) { return static_cast<double>(sum); };
+  covariance << d(sums.xx), d(sums.xy), d(sums.xz), d(sums.xy), d(sums.yy), d(sums.yz), d(sums.xz),
+      d(sums.yz), d(sums.zz);
+  covariance = (covariance * n - mean * mean.transpose()) * (scale * scale);
+  covariance.diagonal().array() += kLeastDeviation * kLeastDeviation;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(covariance);
+  const Eigen::Vector3d deviations = axes.eigenvalues().cwiseMax(1e-6).cwiseSqrt();
+  const bool is_flat = knows_planes_ && deviations[0] < kFlat * deviations[1];
+  const Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
+  const float behind = is_flat ? static_cast<float>(kBehind + deviations[0]) : 0.0F;
+  const Eigen::Matrix3f inverse = covariance.inverse().cast<float>();
+  return {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1),
+          inverse(0, 2), inverse(1, 2), sums.nearest,  normal.x(),
+          normal.y(),    normal.z(),    behind,        static_cast<float>(deviations[2])};
 }
 
 double EvidenceMap::above_mean(std::size_t voxel, std::uint32_t parts) const {

@@ -1,48 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/scan/voxel_key.h"
 #include "methods/common/dense_blocks.h"
 #include "methods/raymoval_plus/common/scan_cells.h"
-#include "methods/raymoval_plus/evidence/far_scans.h"
-#include "methods/raymoval_plus/evidence/seen_through.h"
+#include "methods/raymoval_plus/evidence/beam_image.h"
 
 namespace raymoval::raymoval_plus_method {
 
 /// What a voxel or a point is taken for.
 enum class Verdict : std::uint8_t { kUndecided, kStatic, kDynamic };
 
-/// Of the scans that say something of a voxel, those none of whose beams passed at the height of
-/// its points. A beam above a car's roof, or below a branch, goes through the voxel all the same.
-struct ScansBeside {
-  std::uint16_t agree = 0;
-  /// Between the first and the last scan that agrees, and since the last one.
-  std::uint16_t free_between_agreeing = 0, free_since = 0;
-  /// Before the first scan that agrees and since the last one: those none of whose beams passed at
-  /// the height of anything that stands in the voxel's column.
-  std::uint16_t column_before = 0, column_since = 0;
-};
-
 /// The numbers of scans that say something of a voxel.
+/// What the scans say of a voxel. A scan hits it if a beam ends there; it passes if beams cross the
+/// voxel and end well behind it, and none hits it.
 struct VoxelEvidence {
-  std::uint16_t free_scans = 0;   ///< Scans that saw through the voxel, and are heard.
-  std::uint16_t agree_scans = 0;  ///< Scans with a return at the voxel.
-  /// Scans that saw through it from near by, before the first scan that agrees and since the last
-  /// one, without those beside all of its column.
-  std::uint16_t leading_free = 0, trailing_free = 0;
-  /// The numbers of the first and of the last scan that agree, if any does.
-  std::uint32_t first_agree = 0, last_agree = 0;
-  FarFreeScans far = {};    ///< Which others saw through it.
-  ScansBeside beside = {};  ///< Which of all these passed beside its points.
-};
-
-/// The heights of the lowest and of the highest point of a voxel, metres above the mean of its
-/// points.
-struct HeightSpan {
-  float low = 0.0F, high = 0.0F;
+  static constexpr std::size_t kPasses = 4;
+  std::uint16_t hits = 0;  ///< Scans that hit the voxel.
+  /// Scans that passed before the first hit, and after the last one.
+  std::uint16_t passes_before = 0, passes_after = 0;
+  /// Scans of which the beams around the voxel end behind it, but none crosses it, likewise.
+  std::uint16_t open_before = 0, open_after = 0;
+  std::uint32_t first_hit = 0, last_hit = 0;  ///< Scan numbers, if any hit it.
+  /// The numbers of the first scans that passed before the first hit, and of the last ones that
+  /// passed after the last hit; of the latter, pass number n is at n % kPasses.
+  std::array<std::uint32_t, kPasses> first_passes{}, last_passes{};
+  /// Scans that passed before or after the thing at the voxel was there, at most kPasses; see
+  /// `find_passes_outside`.
+  float passes_outside = 0.0F;
 };
 
 /// Step 2: the occupied voxels. Each has the mean of its points, what the scans say of it (step 3),
@@ -53,11 +42,13 @@ class EvidenceMap {
   using Blocks = DenseBlocks<std::uint32_t, 2, 2>;  ///< A block has 4 x 4 x 4 voxels.
   static constexpr std::uint32_t kNone = Blocks::kNone;
 
-  explicit EvidenceMap(double voxel_size, SeenThrough seen = SeenThrough::kInRowOrBelow)
-      : size_(voxel_size), inverse_(1.0 / voxel_size), seen_through_(seen), blocks_(kNone) {}
-
-  /// Which beams see through its voxels.
-  [[nodiscard]] SeenThrough seen_through() const { return seen_through_; }
+  /// @param voxel_size metres
+  /// @param knows_planes whether beams that end just behind the plane of a voxel's points count
+  explicit EvidenceMap(double voxel_size, bool knows_planes = true)
+      : size_(voxel_size),
+        inverse_(1.0 / voxel_size),
+        knows_planes_(knows_planes),
+        blocks_(kNone) {}
 
   /// Finds the cells of a scan's points, and where the points are in them.
   void find_cells_of(const Scan& scan, int threads, ScanCells& cells) const {
@@ -82,6 +73,13 @@ class EvidenceMap {
     return number;
   }
   void add_point(std::uint32_t voxel, std::uint32_t parts);
+  /// Remembers the range from which a point of the voxel was seen, metres.
+  void see_from(std::uint32_t voxel, float range) {
+    sums_[voxel].nearest = std::min(sums_[voxel].nearest, range);
+  }
+  /// Adds a place that may be outside of the voxel. @param offset from a point, metres
+  void add_beside(std::uint32_t voxel, std::uint32_t parts, const Eigen::Vector3f& offset);
+  void add_sample(std::uint32_t voxel, int x, int y, int z);
   void expect_slot(std::size_t slot) const {
     __builtin_prefetch(&blocks_.at(slot));
     if (slot < verdicts_.size()) __builtin_prefetch(&verdicts_[slot]);
@@ -89,6 +87,7 @@ class EvidenceMap {
   void expect_sums(std::uint32_t voxel) const { __builtin_prefetch(&sums_[voxel]); }
 
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+  [[nodiscard]] double voxel_size() const { return size_; }  ///< Metres.
   /// The place of a cell among those of all blocks, or `Blocks::kNoSlot`.
   [[nodiscard]] std::size_t find_slot(const VoxelIndex& cell, Blocks::Cursor& cursor) const {
     return blocks_.slot(cell, cursor);
@@ -100,15 +99,8 @@ class EvidenceMap {
   [[nodiscard]] const VoxelIndex& index(std::size_t voxel) const { return voxels_[voxel].index; }
   /// The mean of the voxel's points so far, world frame, metres.
   [[nodiscard]] Eigen::Vector3d centroid(std::size_t voxel) const;
-  /// How high the voxel's points so far are.
-  [[nodiscard]] HeightSpan span(std::size_t voxel) const;
-  /// Whether what stands in a voxel's column goes on from it up or down to a height, with gaps of
-  /// at most `kColumnGap`, which few beams leave on one thing.
-  /// @param z metres, world frame
-  [[nodiscard]] bool column_reaches(std::size_t voxel, double z, Blocks::Cursor& cursor) const;
-  /// Whether a voxel is a part of something flat, a roof or an awning: nothing else stands in its
-  /// column within `kRoofAlone`, but in one of the two voxels beside it.
-  [[nodiscard]] bool is_roof(std::size_t voxel, Blocks::Cursor& cursor) const;
+  /// The distribution of the voxel's points so far.
+  [[nodiscard]] VoxelShape shape(std::size_t voxel) const;
   /// How far one of the voxel's points lies above that mean, metres.
   /// @param parts where the point is in its cell, see `ScanCells`
   [[nodiscard]] double above_mean(std::size_t voxel, std::uint32_t parts) const;
@@ -118,7 +110,7 @@ class EvidenceMap {
     Eigen::Vector3d origin;             ///< World frame, metres.
     std::vector<std::uint32_t> voxels;  ///< In order of their first points.
     std::vector<float> places;          ///< x y z of each voxel's mean from the origin, metres.
-    std::vector<HeightSpan> spans;      ///< Of each voxel's points.
+    std::vector<VoxelShape> shapes;     ///< Of each voxel's points.
     std::vector<VoxelEvidence> evidence;
   };
   /// Writes the means of the voxels that points were added to into `Tile::places`, and the spans.
@@ -166,13 +158,12 @@ class EvidenceMap {
   /// that is asked about, so that few voxels beyond it are asked, and enough for one task of a
   /// thread.
   static constexpr int kTileShift = 6;
-  /// Metres.
-  static constexpr double kColumnGap = 0.8, kRoofAlone = 1.6;
   std::uint32_t add_voxel(const VoxelIndex& index, std::uint32_t slot);
   /// Sums of a voxel's points: offsets from the lower corner, in parts of the edge.
   struct Sums {
-    std::uint32_t x = 0, y = 0, z = 0, count = 0;
-    std::uint8_t lowest = 0xFF, highest = 0;  ///< Offsets of points along z.
+    float nearest = 1e9F;
+    std::int32_t x = 0, y = 0, z = 0, count = 0;
+    std::int64_t xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< Of their products.
   };
   struct Voxel {
     VoxelIndex index;
@@ -183,7 +174,7 @@ class EvidenceMap {
   [[nodiscard]] VoxelIndex tile_at(const Eigen::Vector3d& place) const;
 
   double size_, inverse_;
-  SeenThrough seen_through_;
+  bool knows_planes_;
   Blocks blocks_;
   std::vector<std::uint8_t> dynamic_;  ///< By block: see `dynamic_in`.
   /// By block: 1 if a voxel of it is dynamic, and whether it was at the last `update_surroundings`.
@@ -198,5 +189,14 @@ class EvidenceMap {
   std::vector<std::uint32_t> changed_;      ///< Voxels whose mean changed, ...
   std::vector<std::uint8_t> mean_changed_;  ///< ... which this says of each voxel.
 };
+
+/// Calls `visit(voxel, cell)` for each voxel of a block; `cell` is its place in the block.
+template <class Visit>
+void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
+  const std::uint32_t* const cells = map.blocks().cells(block);
+  for (std::size_t i = 0; i < EvidenceMap::Blocks::kCells; ++i) {
+    if (cells[i] != EvidenceMap::kNone) visit(cells[i], i);
+  }
+}
 
 }  // namespace raymoval::raymoval_plus_method

@@ -27,7 +27,7 @@ struct EvidenceMaps {
   /// @param sensor whose scans the maps are made of
   explicit EvidenceMaps(const Parameters& parameters, const SensorModel& sensor = {})
       : standing(parameters.voxel_size),
-        ground(kGroundEdges * parameters.voxel_size, SeenThrough::kAtOrBelow),
+        ground(kGroundEdges * parameters.voxel_size, false),
         steps{static_cast<float>(sensor.azimuth_step), static_cast<float>(sensor.elevation_step)} {}
 
   [[nodiscard]] std::array<EvidenceMap*, 2> both() { return {&standing, &ground}; }

@@ -65,6 +65,7 @@ void add_some(std::size_t begin, std::size_t end, const Parameters& parameters, 
   for (std::size_t i = 0; i < some.count; ++i) {
     const std::size_t k = some.point[i];
     map.add_point(Kind::voxels(scan)[k], Kind::parts(scan, k));
+    map.see_from(Kind::voxels(scan)[k], scan.scan.points[k].norm());
   }
 }
 
@@ -78,6 +79,7 @@ void correct_some(const Parameters& parameters, LocatedScan& scan, EvidenceMap& 
       voxels[k] = EvidenceMap::kNone;
     } else if (voxels[k] == EvidenceMap::kNone) {
       voxels[k] = map.add(Kind::cell(scan, k), Kind::parts(scan, k), cursor);
+      map.see_from(voxels[k], scan.scan.points[k].norm());
     }
   }
 }
@@ -138,8 +140,12 @@ void add_to_maps(const Parameters& parameters, const RunContext& context, Locate
   for (std::size_t begin = 0; begin < points; begin += kPointsAtOnce) {
     const std::size_t end = std::min(points, begin + kPointsAtOnce);
     add_some<StandingPoints>(begin, end, parameters, scan, maps.standing, standing);
-    if (parameters.ground_evidence) {
-      add_some<GroundPoints>(begin, end, parameters, scan, maps.ground, ground);
+    add_some<GroundPoints>(begin, end, parameters, scan, maps.ground, ground);
+  }
+  for (const BeamImage::Extension& extension : scan.extensions) {
+    const std::size_t k = extension.point;
+    if (scan.voxel[k] != EvidenceMap::kNone) {
+      maps.standing.add_beside(scan.voxel[k], scan.in_map.parts[k], extension.offset);
     }
   }
 }
@@ -148,7 +154,7 @@ void correct_voxels(const Parameters& parameters, const RunContext& context, Loc
                     EvidenceMaps& maps) {
   const StageScope timed(context.times, "voxels");
   correct_some<StandingPoints>(parameters, scan, maps.standing);
-  if (parameters.ground_evidence) correct_some<GroundPoints>(parameters, scan, maps.ground);
+  correct_some<GroundPoints>(parameters, scan, maps.ground);
 }
 
 void look_up(const EvidenceMaps& maps, const Parameters& parameters, const RunContext& context,
@@ -163,9 +169,7 @@ void look_up(const EvidenceMaps& maps, const Parameters& parameters, const RunCo
     for (std::size_t first = begin; first < end; first += kPointsAtOnce) {
       const std::size_t last = std::min(end, first + kPointsAtOnce);
       look_up_some<StandingPoints>(first, last, parameters, maps.standing, scan, standing);
-      if (parameters.ground_evidence) {
-        look_up_some<GroundPoints>(first, last, parameters, maps.ground, scan, ground);
-      }
+      look_up_some<GroundPoints>(first, last, parameters, maps.ground, scan, ground);
     }
   });
 }

@@ -17,6 +17,7 @@ namespace raymoval::raymoval_plus_method {
 struct LocatedScan {
   Scan scan;
   ScanCells in_terrain, in_map;
+  std::vector<BeamImage::Extension> extensions;
   std::vector<float> height;  ///< Of each point above the ground, metres, or +infinity.
   /// Number among the voxels of what stands, or `EvidenceMap::kNone`, see `has_standing_voxel`.
   std::vector<std::uint32_t> voxel;

@@ -2,6 +2,7 @@
 #include "methods/raymoval_plus/objects/journeys.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -9,7 +10,6 @@
 #include "core/parallel.h"
 #include "core/sampling.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
-#include "methods/raymoval_plus/objects/taken_places.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -20,16 +20,12 @@ namespace {
 constexpr double kLeastMotion = 0.5, kLeastMotionShare = 0.25;
 /// An object is in its place while it moved by no more than this share of its width.
 constexpr double kPlaceShare = 1.0;
-/// Scans may agree with an object that stands so many times as long as it was followed there: other
-/// sides of it come into sight, or something passes before it, and its track is lost.
-constexpr double kStaySlack = 2.0;
-/// With what stands there anyway, at least this share of the scans agree in which it would have to
-/// be gone.
-constexpr double kLeastPresent = 0.25;
-/// Where nothing moved, scans must agree for so many times as long before a track or after it, for
-/// what stands there to stand anyway: who stood before his track was lost and begins anew was there
-/// as well.
-constexpr double kLongerStay = 2.0;
+/// Of the objects of a track that stands, at least this share is dynamic: it came or leaves.
+constexpr double kCameOrLeaves = 0.25;
+/// An object may be hit so many scans, and this share of its stay, before the stay or after it.
+constexpr double kStaySlack = 3.0, kStaySlackShare = 0.25;
+/// So many scans hit what stood always.
+constexpr float kManyHits = 10.0F;
 /// What stands may be so many times, and by so many metres, wider than anything of its track that
 /// was seen to be dynamic. From nearer by more of it is in sight; a parked car whose track a drop
 /// of rain or a walker took over is larger by far.
@@ -113,16 +109,10 @@ std::optional<Motion> motion_of(const Track& track, const Parameters& parameters
   return Motion{typical, moved / scans_between(first->scan, last->scan)};
 }
 
-/// Whether scans agree on an object no longer than it was followed while it stood.
-/// @param stay where it is then
-bool is_explained_by_stay(const ObjectSummary& object, const Stay& stay) {
-  return object.agree_scans <= kStaySlack * stay.scans() + kScansMore;
-}
-
 /// Whether enough of the objects of a track that stands are dynamic: it came or leaves.
 bool came_or_leaves(const Track& track, const Parameters& parameters) {
   return dynamic_objects(track, parameters) >=
-         parameters.track_dynamic_share * static_cast<double>(track.nodes.size());
+         kCameOrLeaves * static_cast<double>(track.nodes.size());
 }
 
 /// How the object of a track goes.
@@ -155,23 +145,11 @@ std::optional<Journey> journey_of(const Track& track, const Parameters& paramete
                  kWider * dynamic_width(track, parameters) + kWiderMetres};
 }
 
-/// Whether something stands where an object does, no matter whether the object is there: it is the
-/// pole or the tree whose track somebody who passed took over. Scans agree with it long before the
-/// object would have come, or long after it would have left.
-bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey& journey,
-                   const Parameters& parameters) {
-  if (parameters.settled_scans == 0) return false;
-  if (!is_hardly_seen_through(object)) return false;
-  const double before = static_cast<double>(stay.first) - object.first_agree;
-  const double after = object.last_agree - static_cast<double>(stay.last);
-  const double absent = std::max(before, 0.0) + std::max(after, 0.0);
-  if (object.agree_scans - stay.scans() < kLeastPresent * absent) return false;
-  const bool was_before = before > parameters.settled_scans;
-  const bool is_after = after > parameters.settled_scans;
-  const double long_time = parameters.settled_scans * (journey.motion ? 1.0 : kLongerStay);
-  const bool came = journey.dynamic.first <= stay.first && before > long_time;
-  const bool left = journey.dynamic.last >= stay.last && after > long_time;
-  return came || left || (was_before && is_after);
+/// Whether many scans hit an object, and next to no beam passed where it is before or after: no
+/// track makes it dynamic.
+bool stood_always(const ObjectSummary& object, const Parameters& parameters) {
+  return object.hits >= kManyHits &&
+         object.evidence.passes < parameters.object_least_passes * object.points;
 }
 
 /// Whether one of a track's objects belongs to what moved, came or leaves: scans agree on it no
@@ -179,12 +157,13 @@ bool stands_anyway(const ObjectSummary& object, const Stay& stay, const Journey&
 bool belongs(const Track& track, std::size_t at, const Journey& journey,
              const Parameters& parameters) {
   const ObjectSummary& object = track.nodes[at].object;
-  if (journey.motion && is_explained(object, *journey.motion, parameters)) return true;
-  if (object.width() > journey.widest) return false;
   // What came or leaves, and stands else, is in one place all the time.
   const Stay stay =
       journey.motion ? stay_of(track, at) : stay_between(track.nodes.front(), track.nodes.back());
-  return is_explained_by_stay(object, stay) && !stands_anyway(object, stay, journey, parameters);
+  const double slack = kStaySlack + kStaySlackShare * stay.scans();
+  if (object.width() > journey.widest || stood_always(object, parameters)) return false;
+  return object.first_hit >= static_cast<double>(stay.first) - slack &&
+         object.last_hit <= static_cast<double>(stay.last) + slack;
 }
 
 void sort_and_unite(std::vector<int>& numbers) {
@@ -202,90 +181,27 @@ std::vector<Track> followed(const std::vector<std::vector<ObjectSummary>>& scans
   return tracker.finish();
 }
 
-/// An object of a track on which scans agree for longer than its motion explains.
-struct Passing {
-  std::size_t scan;
-  ObjectSummary object;
-  double explained;  ///< By its motion: a number of scans.
-};
+/// Whether one of a track's objects goes on, and scans hit its place no longer than that explains.
+bool passes_by(const Track& track, std::size_t at, const Journey& journey,
+               const Parameters& parameters) {
+  return journey.motion && goes_on(track, at, *journey.motion, parameters) &&
+         is_explained(track.nodes[at].object, *journey.motion, parameters);
+}
 
-/// What tracks say of the objects.
-struct Findings {
-  std::vector<std::vector<int>> marked;  ///< Clusters of each scan.
-  std::vector<Passing> passing;
-};
+/// Clusters of each scan.
+using Marked = std::vector<std::vector<int>>;
 
 /// Adds what one track says.
-void judge(const Track& track, const Parameters& parameters, Findings& findings) {
+void judge(const Track& track, const Parameters& parameters, Marked& marked) {
   const auto journey = journey_of(track, parameters);
   if (!journey) return;
   for (std::size_t k = 0; k < track.nodes.size(); ++k) {
     const auto& [scan, object] = track.nodes[k];
     if (is_dynamic(object, parameters)) continue;
-    if (belongs(track, k, *journey, parameters)) {
-      findings.marked[scan].push_back(object.cluster);
-      continue;
-    }
-    const auto& motion = journey->motion;
-    if (!motion || !goes_on(track, k, *motion, parameters)) continue;
-    findings.passing.push_back({scan, object, scans_explained(object, *motion, parameters)});
-  }
-}
-
-/// All ways to follow objects. What is fast is lost without a long first step, what brakes between
-/// two scans without a wide gate, and what is divided in some scans and not in others if it may not
-/// be followed as it was before. With these, a track may take a neighbour, or a part, for the
-/// object that it lost, and then both are lost. So objects are followed with and without.
-std::vector<TrackRules> all_rules() {
-  std::vector<TrackRules> rules;
-  for (const bool also_undivided : {false, true}) {
-    for (const TrackGate& gate : {kGate, kWideGate}) {
-      for (const double first_speed : {0.0, kFirstSpeed}) {
-        rules.push_back({first_speed, gate, also_undivided});
-      }
+    if (belongs(track, k, *journey, parameters) || passes_by(track, k, *journey, parameters)) {
+      marked[scan].push_back(object.cluster);
     }
   }
-  return rules;
-}
-
-/// What tracks say by all rules, forward and backward in time.
-Findings follow_all(const std::vector<std::vector<ObjectSummary>>& scans,
-                    const Parameters& parameters, int threads) {
-  const std::vector<TrackRules> rules = all_rules();
-  std::vector<Findings> by_rules(2 * rules.size());
-  parallel_for(threads, by_rules.size(), 1, [&](std::size_t i) {
-    by_rules[i].marked.resize(scans.size());
-    const ObjectTracker tracker(parameters, rules[i / 2]);
-    for (const Track& track : followed(scans, i % 2 == 1, tracker)) {
-      judge(track, parameters, by_rules[i]);
-    }
-  });
-  Findings all{std::vector<std::vector<int>>(scans.size()), {}};
-  for (const Findings& some : by_rules) {
-    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-      all.marked[scan].insert(all.marked[scan].end(), some.marked[scan].begin(),
-                              some.marked[scan].end());
-    }
-    all.passing.insert(all.passing.end(), some.passing.begin(), some.passing.end());
-  }
-  for (std::vector<int>& clusters : all.marked) sort_and_unite(clusters);
-  return all;
-}
-
-/// The places of all objects that are dynamic or marked.
-TakenPlaces taken_places(const std::vector<std::vector<ObjectSummary>>& scans,
-                         const std::vector<std::vector<int>>& marked,
-                         const Parameters& parameters) {
-  TakenPlaces places;
-  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-    for (const ObjectSummary& object : scans[scan]) {
-      const bool is_marked =
-          std::binary_search(marked[scan].begin(), marked[scan].end(), object.cluster);
-      if (is_marked || is_dynamic(object, parameters)) places.add(scan, object);
-    }
-  }
-  places.sort();
-  return places;
 }
 
 }  // namespace
@@ -312,15 +228,19 @@ std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
     const RunContext& context) {
   const StageScope timed(context.times, "tracks");
-  Findings findings = follow_all(scans, parameters, context.threads);
-  // Where others stood, scans agree on what passes for as long as these stood there.
-  const TakenPlaces places = taken_places(scans, findings.marked, parameters);
-  for (const auto& [scan, object, explained] : findings.passing) {
-    if (object.agree_scans > explained + places.scans_at(object, parameters.voxel_size)) continue;
-    findings.marked[scan].push_back(object.cluster);
+  std::array<Marked, 2> found;  // Forward and backward in time.
+  parallel_for(context.threads, found.size(), 1, [&](std::size_t i) {
+    found[i].resize(scans.size());
+    for (const Track& track : followed(scans, i == 1, ObjectTracker(parameters))) {
+      judge(track, parameters, found[i]);
+    }
+  });
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    std::vector<int>& marked = found[0][scan];
+    marked.insert(marked.end(), found[1][scan].begin(), found[1][scan].end());
+    sort_and_unite(marked);
   }
-  for (std::vector<int>& clusters : findings.marked) sort_and_unite(clusters);
-  return std::move(findings.marked);
+  return std::move(found[0]);
 }
 
 }  // namespace raymoval::raymoval_plus_method

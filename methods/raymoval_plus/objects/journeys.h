@@ -15,8 +15,7 @@ std::vector<int> marked_in(std::size_t scan, const std::vector<Track>& tracks,
                            const Parameters& parameters);
 
 /// Step 7: the clusters of each scan that were seen moving before or after, though their own rays
-/// do not say so. A track of dynamic objects passes through them, forward or backward in time. If
-/// scans agree with them for too long for that, others that go account for the time.
+/// do not say so. A track of dynamic objects passes through them, forward or backward in time.
 std::vector<std::vector<int>> objects_on_tracks(
     const std::vector<std::vector<ObjectSummary>>& scans, const Parameters& parameters,
     const RunContext& context);

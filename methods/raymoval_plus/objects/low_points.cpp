@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include "methods/common/dense_blocks.h"
-#include "methods/common/range_adaptive_clusters.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -32,19 +30,12 @@ constexpr int kMajority = 2;
 /// high.
 constexpr double kLeastAboveGround = 0.01;
 
-/// A point with no other one above the ground within this share of the distance that joins the
-/// points of a cluster is a drop of rain or a flake: what a beam meets of a leg or a car is met by
-/// the next one as well. That holds up to the range at which what is so many metres wide has two
-/// points.
-constexpr float kLoneReach = 1.0F / 3.0F, kLoneWidth = 0.1F;
-
 /// What stands in a column of voxels.
 struct Standing {
   std::uint32_t dynamic = 0, fixed = 0;  ///< Numbers of points.
   int marked = 0;  ///< So many columns to either side are marked, for what is dynamic here.
-  bool is_near_dynamic = false;    ///< Something dynamic stands here or beside it.
-  bool is_asked = false;           ///< A low point here or beside it wants to know.
-  bool is_beside_dynamic = false;  ///< So near that a point here may belong to it.
+  bool is_near_dynamic = false;  ///< Something dynamic stands here or beside it.
+  bool is_asked = false;         ///< A low point here or beside it wants to know.
 };
 
 /// The low points of one scan and what stands on them. Hardly anything in a scan is dynamic, so
@@ -60,12 +51,6 @@ class LowPoints {
                                 static_cast<float>(parameters.voxel_size)),
         farthest_aside_(std::sqrt(2.0F) * (kMostColumnsAside + 1) *
                         static_cast<float>(parameters.voxel_size)),
-        lone_gap_(kLoneReach * static_cast<float>(parameters.cluster_gap)),
-        lone_growth_(kLoneReach * static_cast<float>(parameters.cluster_growth)),
-        lone_range_(lone_range_of(maps.steps, parameters)),
-        lone_columns_(static_cast<int>(
-            std::ceil((lone_gap_ + lone_growth_ * lone_range_) / parameters.voxel_size))),
-        asks_ground_(parameters.ground_evidence),
         verdict_(verdict) {}
 
   void decide() {
@@ -77,12 +62,6 @@ class LowPoints {
   }
 
  private:
-  /// A step that no sensor has must not make it larger than what is looked at.
-  static float lone_range_of(const DirectionSteps& steps, const Parameters& parameters) {
-    if (steps.azimuth <= 0.0F) return 0.0F;
-    return std::min(0.5F * kLoneWidth / steps.azimuth,
-                    static_cast<float>(parameters.evidence_range_max));
-  }
   [[nodiscard]] bool is_standing(std::size_t k) const {
     const float height = scan_.height[k];
     if (height < low_) return false;
@@ -91,7 +70,7 @@ class LowPoints {
   /// Whether a point is so low that what stands above it may have a say in its verdict.
   [[nodiscard]] bool may_follow(std::size_t k) const {
     if (scan_.height[k] >= low_) return false;
-    return scan_.has_standing_voxel(k) || (asks_ground_ && !is_dynamic(k));
+    return scan_.has_standing_voxel(k) || !is_dynamic(k);
   }
   /// Whether a point of the ground lies above what was seen of the ground there, or was no ground
   /// itself when it was seen.
@@ -123,54 +102,14 @@ class LowPoints {
     }
   }
 
-  /// The points above the ground beside dynamic ones that stand, of which any may belong to these.
-  [[nodiscard]] std::vector<std::size_t> points_beside(const std::vector<std::size_t>& dynamic) {
-    for (const std::size_t k : dynamic) {
-      if (range(k) > lone_range_) continue;
-      for_columns_around(k, lone_columns_,
-                         [](Standing& standing) { standing.is_beside_dynamic = true; });
-    }
-    std::vector<std::size_t> beside;
-    for (std::size_t k = 0; k < verdict_.size(); ++k) {
-      if (!scan_.has_standing_voxel(k)) continue;
-      if (columns_.get(column_of(k), cursor_).is_beside_dynamic) beside.push_back(k);
-    }
-    return beside;
-  }
-  /// The dynamic points that stand, without drops and flakes.
-  [[nodiscard]] std::vector<std::size_t> things() {
-    std::vector<std::size_t> dynamic;
-    for (std::size_t k = 0; k < verdict_.size(); ++k) {
-      if (is_dynamic(k) && is_standing(k)) dynamic.push_back(k);
-    }
-    const std::vector<std::size_t> beside = points_beside(dynamic);
-    std::vector<Eigen::Vector3f> points;
-    std::vector<float> ranges;
-    for (const std::size_t k : beside) {
-      points.push_back(scan_.scan.points[k]);
-      ranges.push_back(range(k));
-    }
-    const std::vector<int> cluster =
-        range_adaptive_clusters(points, ranges, lone_gap_, lone_growth_);
-    std::vector<int> size(cluster.size(), 0);
-    for (const int number : cluster) ++size[static_cast<std::size_t>(number)];
-    std::vector<std::size_t> alone;
-    for (std::size_t i = 0; i < beside.size(); ++i) {
-      if (size[static_cast<std::size_t>(cluster[i])] > 1 || ranges[i] > lone_range_) continue;
-      alone.push_back(beside[i]);
-    }
-    std::vector<std::size_t> things;
-    std::set_difference(dynamic.begin(), dynamic.end(), alone.begin(), alone.end(),
-                        std::back_inserter(things));
-    return things;
-  }
   /// The range of the farthest low point that may reach up to a point.
   [[nodiscard]] float farthest_below(std::size_t k) const {
     return range(k) + farthest_aside_ + kHighest + kHigherByRange * range(k);
   }
   /// Counts the dynamic points of each column, and marks the columns from which one may be reached.
   void count_dynamic() {
-    for (const std::size_t k : things()) {
+    for (std::size_t k = 0; k < verdict_.size(); ++k) {
+      if (!is_dynamic(k) || !is_standing(k)) continue;
       Standing& column = columns_.make(column_of(k), cursor_);
       ++column.dynamic;
       const int reach = reach_at(farthest_below(k));
@@ -216,10 +155,6 @@ class LowPoints {
   float low_;                     ///< Metres.
   float columns_wider_by_range_;  ///< 1 / m.
   float farthest_aside_;          ///< How far aside a point that is reached can be, metres.
-  float lone_gap_, lone_growth_;  ///< How far apart lone points are, as `cluster_gap`.
-  float lone_range_;              ///< Up to which a point can be told to be alone, metres.
-  int lone_columns_;              ///< Voxels that this distance reaches at most.
-  bool asks_ground_;
   Verdicts& verdict_;
   Columns columns_{Standing{}};
   Columns::Cursor cursor_;

@@ -8,6 +8,13 @@
 
 namespace raymoval::raymoval_plus_method {
 
+/// Sums over the points of an object, of what is known of their voxels.
+struct ObjectEvidence {
+  int dynamic = 0;             ///< How many points are dynamic.
+  float contradiction = 0.0F;  ///< See `contradiction`.
+  float passes = 0.0F;         ///< See `VoxelEvidence::passes_outside`.
+};
+
 /// What step 7 knows of a cluster of one scan; world frame, metres.
 struct ObjectSummary {
   /// Bounding box.
@@ -16,35 +23,27 @@ struct ObjectSummary {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< Mean of the points.
   double time_s = 0.0;                               ///< Of its scan.
   float range = 0.0F;                                ///< Distance of the centre from the sensor.
-  /// The number of scans that agree with a point, on average over the points that are not dynamic.
-  float agree_scans = 0.0F;
-  /// Of these points also: the number of scans that saw through, and the numbers of the first and
-  /// the last scan that agree, on average.
-  float free_scans = 0.0F;
-  double first_agree = 0.0, last_agree = 0.0;
+  /// Means over the points that are not dynamic: the number of scans that hit a point's voxel, and
+  /// the numbers of the first and the last one.
+  float hits = 0.0F;
+  double first_hit = 0.0, last_hit = 0.0;
   int points = 0;
-  int dynamic = 0;            ///< How many points are dynamic.
-  bool is_whole = false;      ///< The others stand on these, see `Cluster::is_whole`.
-  bool is_undivided = false;  ///< It was divided, and so stands beside what it was divided into.
-  int cluster = 0;            ///< Number within its scan.
+  ObjectEvidence evidence;
+  int cluster = 0;  ///< Number within its scan.
 
   [[nodiscard]] double width() const { return (high - low).head<2>().norm(); }
 };
 
-/// Whether a cluster, or what is remembered of it, is one dynamic thing: whole, or with enough of
-/// its points dynamic.
+/// Whether a cluster, or what is remembered of it, is one dynamic thing: enough beams passed where
+/// it is, before it came or after it left.
 template <class Thing>
-bool is_one_dynamic_thing(const Thing& thing, const Parameters& parameters) {
-  return thing.is_whole || thing.dynamic >= parameters.object_dynamic_share * thing.points;
-}
-
-/// Whether an object is one dynamic thing and has enough dynamic points for its track to take it
-/// for one, which then has no need to mark it.
-/// @note A part of a divided cluster goes by itself only with `group_points` dynamic points. One
-/// with fewer, but `object_points` of them, neither goes as a whole nor is marked by itself; a
-/// track may still mark the cluster that it was divided from.
-inline bool is_dynamic(const ObjectSummary& object, const Parameters& parameters) {
-  return object.dynamic >= parameters.object_points && is_one_dynamic_thing(object, parameters);
+bool is_dynamic(const Thing& thing, const Parameters& parameters) {
+  const double points = thing.points;
+  const ObjectEvidence& evidence = thing.evidence;
+  if (thing.points < parameters.object_points) return false;
+  if (evidence.passes >= parameters.object_passes * points) return true;
+  return evidence.passes >= parameters.object_least_passes * points &&
+         evidence.contradiction >= parameters.object_contradiction * points;
 }
 
 }  // namespace raymoval::raymoval_plus_method

@@ -2,21 +2,39 @@
 #include "methods/raymoval_plus/objects/objects.h"
 
 #include <algorithm>
-#include <functional>
+#include <utility>
 
 #include "core/parallel.h"
 #include "methods/common/range_adaptive_clusters.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
+#include "methods/raymoval_plus/evidence/things.h"
 #include "methods/raymoval_plus/objects/fragments.h"
-#include "methods/raymoval_plus/objects/lasting_points.h"
-#include "methods/raymoval_plus/objects/sparse_objects.h"
-#include "methods/raymoval_plus/objects/whole_things.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
 
 /// Of each cluster one of so many points is looked at first, to find those that are too wide.
 constexpr std::size_t kFewPoints = 8;
+/// A cluster of which no larger share of the points is dynamic is static.
+constexpr double kHardlyDynamic = 0.1;
+/// A point stands if so many scans hit its voxel, and fewer passes than this a voxel tell that the
+/// thing there came or left. If this share of a dynamic cluster stands, it is a thing beside
+/// another.
+constexpr int kStandingHits = 10;
+constexpr float kStandingPasses = 0.2F;
+constexpr double kStandingShare = 0.5;
+/// A static cluster of so many points may hold something that moves: points that are dynamic and
+/// with them so many passes a voxel.
+constexpr int kLargeCluster = 1000;
+constexpr float kMovingPasses = 2.0F;
+
+/// Calls `visit(point, cluster)` for each point that is in a cluster.
+template <class Visit>
+void for_clustered_points(const SegmentedScan& scan, Visit&& visit) {
+  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
+    visit(scan.high_points[i], static_cast<std::size_t>(scan.cluster_of[i]));
+  }
+}
 
 /// The cluster of each of the `chosen` points of a scan.
 std::vector<int> clusters_of(const Scan& scan, const std::vector<std::uint32_t>& chosen,
@@ -33,126 +51,35 @@ std::vector<int> clusters_of(const Scan& scan, const std::vector<std::uint32_t>&
                                  static_cast<float>(parameters.cluster_growth));
 }
 
-/// Clusters some of the `high_points` among themselves. The result is the number of each one's new
-/// cluster, or -1 if `choose(point, cluster)` does not want it.
-template <class Choose>
-std::vector<int> clusters_among(const SegmentedScan& scan, const Parameters& parameters,
-                                Choose&& choose) {
-  std::vector<std::size_t> places;
-  std::vector<std::uint32_t> chosen;
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const std::uint32_t k = scan.high_points[i];
-    if (!choose(k, scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])])) continue;
-    places.push_back(i);
-    chosen.push_back(k);
-  }
-  const std::vector<int> clusters = clusters_of(scan.scan, chosen, parameters);
-  std::vector<int> among(scan.high_points.size(), -1);
-  for (std::size_t n = 0; n < places.size(); ++n) among[places[n]] = clusters[n];
-  return among;
-}
-
-/// Whether a cluster has many dynamic points, but too few to be one dynamic thing.
-bool is_mixed(const Cluster& cluster, const Parameters& parameters) {
-  return cluster.dynamic >= parameters.group_points && !is_one_dynamic_thing(cluster, parameters);
-}
-
-/// Finds the mixed clusters that are one thing.
-void find_whole_clusters(const EvidenceMap& map, const Parameters& parameters,
-                         SegmentedScan& scan) {
-  std::vector<std::uint8_t> mixed(scan.clusters.size());
-  for (std::size_t c = 0; c < mixed.size(); ++c) {
-    mixed[c] = is_mixed(scan.clusters[c], parameters) ? 1 : 0;
-  }
-  const std::vector<std::uint8_t> is_whole = find_whole_things(scan, mixed, map, parameters);
-  for (std::size_t c = 0; c < mixed.size(); ++c) scan.clusters[c].is_whole = is_whole[c] != 0;
-}
-
-/// Adds clusters that stand for what was divided, as it was before. What is hardly dynamic is no
-/// one thing that moves, and has none.
-/// @param whole the clusters before
-/// @param divided for each part, which come after these, the cluster that it is from
-void add_undivided(const std::vector<Cluster>& whole, const std::vector<std::size_t>& divided,
-                   SegmentedScan& scan) {
-  for (std::size_t part = 0; part < divided.size(); ++part) {
-    const std::size_t from = divided[part];
-    if (whole[from].is_hardly_dynamic) continue;
-    if (scan.clusters[from].undivided < 0) {
-      scan.clusters[from].undivided = static_cast<int>(scan.clusters.size());
-      scan.clusters.push_back(
-          {.points = whole[from].points, .dynamic = whole[from].dynamic, .is_undivided = true});
-    }
-    scan.clusters[whole.size() + part].undivided = scan.clusters[from].undivided;
-  }
-}
-
-/// Divides the mixed clusters.
-void divide_mixed_clusters(const EvidenceMap& map, const Parameters& parameters,
-                           SegmentedScan& scan) {
-  const auto is_left_over = [&](std::size_t k, const Cluster& cluster) {
-    if (!is_mixed(cluster, parameters)) return false;
-    return scan.verdict[k] == Verdict::kDynamic || !is_settled(scan.voxel[k], map, parameters);
-  };
-  const std::vector<int> parts = clusters_among(scan, parameters, is_left_over);
-  const std::vector<Cluster> whole = scan.clusters;
-  std::vector<std::size_t> divided;  // The cluster that each part is from.
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i] < 0) continue;
-    const auto part = static_cast<std::size_t>(parts[i]);
-    if (part >= divided.size()) divided.resize(part + 1);
-    divided[part] = static_cast<std::size_t>(scan.cluster_of[i]);
-    scan.cluster_of[i] = static_cast<int>(whole.size() + part);
-  }
-  for (const std::size_t from : divided) {
-    scan.clusters.push_back({.is_part = true, .is_hardly_dynamic = whole[from].is_hardly_dynamic});
-  }
-  count_points(scan);
-  add_undivided(whole, divided, scan);
-}
-
-/// The dynamic points of hardly dynamic clusters that hang together with enough others: 1 for each
-/// of `high_points` that is one.
-std::vector<std::uint8_t> spared_groups(const SegmentedScan& scan, const Parameters& parameters) {
-  const auto may_be_spared = [&](std::size_t k, const Cluster& cluster) {
-    return scan.verdict[k] == Verdict::kDynamic && cluster.is_hardly_dynamic;
-  };
-  const std::vector<int> groups = clusters_among(scan, parameters, may_be_spared);
-  std::vector<int> size(groups.size(), 0);
-  for (const int group : groups) {
-    if (group >= 0) ++size[static_cast<std::size_t>(group)];
-  }
-  std::vector<std::uint8_t> spared(groups.size(), 0);
-  for (std::size_t i = 0; i < spared.size(); ++i) {
-    if (groups[i] < 0) continue;
-    spared[i] = size[static_cast<std::size_t>(groups[i])] >= parameters.group_points ? 1 : 0;
-  }
-  return spared;
-}
-
 /// Grows the box of an object.
 void add_to_box(const Eigen::Vector3d& point, ObjectSummary& object) {
   object.low = object.low.cwiseMin(point);
   object.high = object.high.cwiseMax(point);
 }
 
-/// Adds what scans say of a point's voxel to the sums of an object.
-void add_evidence_of(std::size_t k, const SegmentedScan& scan, const EvidenceMap& map,
-                     ObjectSummary& object) {
+/// Adds the hits of a point's voxel to the sums of an object.
+void add_hits(std::uint32_t k, const SegmentedScan& scan, const EvidenceMap& map,
+              ObjectSummary& object) {
   VoxelEvidence evidence;
-  if (scan.voxel[k] != EvidenceMap::kNone) evidence = map.evidence(scan.voxel[k]);
-  object.agree_scans += evidence.agree_scans;
-  object.free_scans += evidence.free_scans;
-  const auto [first, last] = agreeing_span(evidence, scan.scan.index);
-  object.first_agree += first;
-  object.last_agree += last;
+  if (scan.has_standing_voxel(k)) evidence = map.evidence(scan.voxel[k]);
+  object.hits += evidence.hits;
+  const auto [first, last] = hit_span(evidence, scan.scan.index);
+  object.first_hit += first;
+  object.last_hit += last;
 }
 
 /// Makes means of the sums.
-void divide_evidence(int points, ObjectSummary& object) {
-  object.agree_scans /= static_cast<float>(points);
-  object.free_scans /= static_cast<float>(points);
-  object.first_agree /= points;
-  object.last_agree /= points;
+/// @param points those whose hits were added; without any, the object is hit by its scan
+void divide_sums(int points, std::size_t scan, ObjectSummary& object) {
+  object.center /= object.points;
+  if (points == 0) {
+    object.hits = 1.0F;
+    object.first_hit = object.last_hit = static_cast<double>(scan);
+    return;
+  }
+  object.hits /= static_cast<float>(points);
+  object.first_hit /= points;
+  object.last_hit /= points;
 }
 
 /// The clusters that may be followed: 1 for each that is neither too small nor, by a few of its
@@ -161,8 +88,8 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
                                              const Parameters& parameters) {
   std::vector<ObjectSummary> boxes(scan.clusters.size());
   for (std::size_t i = 0; i < scan.high_points.size(); i += kFewPoints) {
-    const Eigen::Vector3d point = scan.world(scan.high_points[i]);
-    for_clusters_of(scan, i, [&](std::size_t cluster) { add_to_box(point, boxes[cluster]); });
+    add_to_box(scan.world(scan.high_points[i]),
+               boxes[static_cast<std::size_t>(scan.cluster_of[i])]);
   }
   std::vector<std::uint8_t> follow(boxes.size());
   for (std::size_t c = 0; c < follow.size(); ++c) {
@@ -173,32 +100,50 @@ std::vector<std::uint8_t> clusters_to_follow(const SegmentedScan& scan,
   return follow;
 }
 
-/// The clusters that a track marked: 1 for each that is one, or a part of one.
-std::vector<std::uint8_t> marked_clusters(const SegmentedScan& scan,
-                                          const std::vector<int>& marked) {
-  std::vector<std::uint8_t> is_marked(scan.clusters.size(), 0);
-  for (const int cluster : marked) is_marked[static_cast<std::size_t>(cluster)] = 1;
-  for (std::size_t c = 0; c < is_marked.size(); ++c) {
-    const int undivided = scan.clusters[c].undivided;
-    if (undivided >= 0 && is_marked[static_cast<std::size_t>(undivided)] != 0) is_marked[c] = 1;
-  }
-  return is_marked;
-}
+/// Where clusters join what moves to what stands: points of the other thing.
+class OtherThings {
+ public:
+  OtherThings(const SegmentedScan& scan, const EvidenceMap& map)
+      : scan_(scan), map_(map), around_(map.voxel_size()) {}
 
-/// The clusters that go by themselves: 1 for each that is one dynamic thing, and not marked. Parts
-/// need more dynamic points, see `is_dynamic` of `ObjectSummary`.
-std::vector<std::uint8_t> dynamic_clusters(const SegmentedScan& scan,
-                                           const std::vector<std::uint8_t>& is_marked,
-                                           const Parameters& parameters) {
-  std::vector<std::uint8_t> go(scan.clusters.size(), 0);
-  for (std::size_t c = 0; c < go.size(); ++c) {
-    const Cluster& cluster = scan.clusters[c];
-    const int enough = cluster.is_part ? parameters.group_points : parameters.object_points;
-    go[c] = is_marked[c] == 0 && !cluster.is_undivided && cluster.dynamic >= enough &&
-            is_one_dynamic_thing(cluster, parameters);
+  /// The points of what stands beside things that go.
+  /// @param go 1 for each cluster that goes
+  [[nodiscard]] std::vector<std::uint32_t> standing_beside(const std::vector<std::uint8_t>& go) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> found;
+    std::vector<int> count(go.size(), 0);
+    for_clustered_points(scan_, [&](std::uint32_t k, std::size_t cluster) {
+      if (go[cluster] == 0 || !stands(k)) return;
+      found.emplace_back(k, cluster);
+      ++count[cluster];
+    });
+    std::vector<std::uint32_t> points;
+    for (const auto& [k, cluster] : found) {
+      if (count[cluster] >= kStandingShare * scan_.clusters[cluster].points) points.push_back(k);
+    }
+    return points;
   }
-  return go;
-}
+  /// Whether a point of a static cluster is of something that moves.
+  [[nodiscard]] bool moves(std::uint32_t k, const Cluster& cluster) {
+    return cluster.points >= kLargeCluster && scan_.verdict[k] == Verdict::kDynamic &&
+           scan_.has_standing_voxel(k) && passes_of_thing(k) >= kMovingPasses;
+  }
+
+ private:
+  [[nodiscard]] bool stands(std::uint32_t k) {
+    if (!scan_.has_standing_voxel(k)) return false;
+    const VoxelEvidence& evidence = map_.evidence(scan_.voxel[k]);
+    return evidence.hits >= kStandingHits && evidence.passes_outside < 1.0F &&
+           passes_of_thing(k) < kStandingPasses;
+  }
+  [[nodiscard]] float passes_of_thing(std::uint32_t k) {
+    around_.look_at(map_.block_of(scan_.voxel[k]), map_);
+    return around_.passes_of_thing(map_.index(scan_.voxel[k]), map_);
+  }
+
+  const SegmentedScan& scan_;
+  const EvidenceMap& map_;
+  Surroundings around_;
+};
 
 /// Lets fragments go with what goes beside them.
 /// @param go 1 for each cluster that goes
@@ -206,11 +151,9 @@ void add_fragments(const SegmentedScan& scan, const std::vector<std::uint8_t>& g
                    const Parameters& parameters, Verdicts& verdict) {
   if (std::find(go.begin(), go.end(), 1) == go.end()) return;
   std::vector<ObjectSummary> boxes(go.size());
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    for_clusters_of(scan, i, [&](std::size_t cluster) {
-      if (go[cluster] != 0) add_to_box(scan.world(scan.high_points[i]), boxes[cluster]);
-    });
-  }
+  for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
+    if (go[cluster] != 0) add_to_box(scan.world(k), boxes[cluster]);
+  });
   const Fragments fragments(scan, parameters);
   for (std::size_t c = 0; c < go.size(); ++c) {
     if (go[c] == 0 || is_fragment(scan.clusters[c].points, parameters)) continue;
@@ -239,88 +182,77 @@ void find_clusters(const Parameters& parameters, const RunContext& context, Segm
   scan.clusters.resize(number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end()));
 }
 
-void count_points(SegmentedScan& scan) {
-  for (Cluster& cluster : scan.clusters) cluster.points = cluster.dynamic = 0;
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
-    ++cluster.points;
-    if (scan.verdict[scan.high_points[i]] == Verdict::kDynamic) ++cluster.dynamic;
-  }
+void add_evidence_of(std::uint32_t voxel, std::uint32_t points, const EvidenceMap& map,
+                     ObjectEvidence& sum) {
+  const VoxelEvidence& evidence = map.evidence(voxel);
+  const auto many = static_cast<float>(points);
+  if (map.verdict(voxel) == Verdict::kDynamic) sum.dynamic += static_cast<int>(points);
+  sum.contradiction += many * contradiction(evidence);
+  sum.passes += many * evidence.passes_outside;
 }
 
-void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
-                     const RunContext& context, SegmentedScan& scan) {
-  if (!parameters.objects) return;
-  const StageScope timed(context.times, "objects");
-  count_points(scan);
-  for (Cluster& cluster : scan.clusters) {
-    cluster.is_hardly_dynamic = cluster.dynamic <= parameters.object_static_share * cluster.points;
-  }
-  if (parameters.settled_scans == 0) return;
-  find_whole_clusters(map, parameters, scan);
-  divide_mixed_clusters(map, parameters, scan);
+void add_evidence_of_points(const EvidenceMap& map, SegmentedScan& scan) {
+  for (Cluster& cluster : scan.clusters) cluster = {};
+  for_clustered_points(scan, [&](std::uint32_t k, std::size_t number) {
+    Cluster& cluster = scan.clusters[number];
+    ++cluster.points;
+    if (scan.has_standing_voxel(k)) add_evidence_of(scan.voxel[k], 1, map, cluster.evidence);
+  });
 }
 
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
-                                             const DirectionSteps& steps,
                                              const Parameters& parameters,
                                              const RunContext& context) {
   if (!parameters.objects || !parameters.tracks) return {};
   const StageScope timed(context.times, "objects");
   std::vector<ObjectSummary> objects(scan.clusters.size());
   const std::vector<std::uint8_t> follow = clusters_to_follow(scan, parameters);
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const std::size_t k = scan.high_points[i];
-    for_clusters_of(scan, i, [&](std::size_t cluster) {
-      if (follow[cluster] == 0) return;
-      ObjectSummary& object = objects[cluster];
-      const Eigen::Vector3d point = scan.world(k);
-      add_to_box(point, object);
-      object.center += point;
-      if (scan.verdict[k] != Verdict::kDynamic) add_evidence_of(k, scan, map, object);
-    });
-  }
+  for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
+    if (follow[cluster] == 0) return;
+    ObjectSummary& object = objects[cluster];
+    const Eigen::Vector3d point = scan.world(k);
+    add_to_box(point, object);
+    object.center += point;
+    if (scan.verdict[k] != Verdict::kDynamic) add_hits(k, scan, map, object);
+  });
   const Eigen::Vector3d sensor = scan.scan.T_world_sensor.translation();
   std::vector<ObjectSummary> followed;
   for (std::size_t c = 0; c < objects.size(); ++c) {
     ObjectSummary& object = objects[c];
-    object.points = scan.clusters[c].points;
-    object.dynamic = scan.clusters[c].dynamic;
-    object.is_whole = scan.clusters[c].is_whole;
-    object.is_undivided = scan.clusters[c].is_undivided;
     if (follow[c] == 0 || object.width() > parameters.track_width) continue;
-    object.center /= object.points;
+    object.points = scan.clusters[c].points;
+    object.evidence = scan.clusters[c].evidence;
+    divide_sums(object.points - object.evidence.dynamic, scan.scan.index, object);
     object.time_s = scan.scan.time_s;
     object.range = static_cast<float>((object.center - sensor).norm());
-    if (is_sparse(object, steps)) continue;
-    divide_evidence(std::max(object.points - object.dynamic, 1), object);
     object.cluster = static_cast<int>(c);
     followed.push_back(object);
   }
   return followed;
 }
 
-Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
-                        const std::vector<int>& marked, const Parameters& parameters,
+Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
+                        const EvidenceMap& map, const Parameters& parameters,
                         const RunContext& context) {
   if (!parameters.objects) return scan.verdict;
   const StageScope timed(context.times, "objects");
-  const std::vector<std::uint8_t> is_marked = marked_clusters(scan, marked);
-  const std::vector<std::uint8_t> is_dynamic = dynamic_clusters(scan, is_marked, parameters);
-  const std::vector<std::uint8_t> lasting = lasting_points(scan, map, is_dynamic, parameters);
-  const std::vector<std::uint8_t> spared = spared_groups(scan, parameters);
-  std::vector<std::uint8_t> go(is_marked.size());
-  std::transform(is_marked.begin(), is_marked.end(), is_dynamic.begin(), go.begin(), std::bit_or());
-  Verdicts verdict = scan.verdict;
-  for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
-    const auto number = static_cast<std::size_t>(scan.cluster_of[i]);
-    const bool is_hardly_dynamic = scan.clusters[number].is_hardly_dynamic;
-    if (go[number] != 0) {
-      verdict[scan.high_points[i]] = lasting[i] != 0 ? Verdict::kStatic : Verdict::kDynamic;
-    } else if (spared[i] == 0 && is_hardly_dynamic) {
-      verdict[scan.high_points[i]] = Verdict::kStatic;
-    }
+  std::vector<std::uint8_t> go(scan.clusters.size(), 0), stay(scan.clusters.size(), 0);
+  for (std::size_t c = 0; c < go.size(); ++c) {
+    const Cluster& cluster = scan.clusters[c];
+    go[c] = is_dynamic(cluster, parameters) ? 1 : 0;
+    stay[c] = cluster.evidence.dynamic <= kHardlyDynamic * cluster.points ? 1 : 0;
   }
+  for (const int cluster : marked) go[static_cast<std::size_t>(cluster)] = 1;
+  OtherThings others(scan, map);
+  Verdicts verdict = scan.verdict;
+  for_clustered_points(scan, [&](std::uint32_t k, std::size_t cluster) {
+    if (go[cluster] != 0) {
+      verdict[k] = Verdict::kDynamic;
+    } else if (stay[cluster] != 0 && !others.moves(k, scan.clusters[cluster])) {
+      verdict[k] = Verdict::kStatic;
+    }
+  });
+  for (const std::uint32_t k : others.standing_beside(go)) verdict[k] = Verdict::kStatic;
   add_fragments(scan, go, parameters, verdict);
   return verdict;
 }

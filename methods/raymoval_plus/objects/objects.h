@@ -15,18 +15,7 @@ using Verdicts = std::vector<Verdict>;  ///< One for each point of a scan.
 /// A cluster of a scan's points that stand clear of the ground.
 struct Cluster {
   int points = 0;
-  int dynamic = 0;  ///< How many of these are dynamic.
-  /// What stands against a wall is one cluster with it. Such a cluster is divided: the points of
-  /// voxels that many scans agree with stay in it, and the others make parts of their own.
-  bool is_part = false;
-  bool is_hardly_dynamic = false;  ///< The cluster, or the one that it is a part of, is.
-  /// It is mixed, and what is not dynamic in it stands on what is: all of it is one dynamic thing.
-  bool is_whole = false;
-  /// It stands for a cluster as it was before it was divided. It is no point's own cluster.
-  bool is_undivided = false;
-  /// Of a cluster that was divided and of its parts: the number of the one that stands for all of
-  /// them, if there is one. Otherwise -1.
-  int undivided = -1;
+  ObjectEvidence evidence;
 };
 
 /// A scan with its clusters.
@@ -36,40 +25,26 @@ struct SegmentedScan : LocatedScan {
   std::vector<Cluster> clusters;
 };
 
-/// Calls `visit(number)` with the own cluster of the `n`th of the `high_points`, and with the one
-/// that stands for what this was divided from.
-template <class Visit>
-void for_clusters_of(const SegmentedScan& scan, std::size_t n, Visit&& visit) {
-  const auto own = static_cast<std::size_t>(scan.cluster_of[n]);
-  visit(own);
-  const int undivided = scan.clusters[own].undivided;
-  if (undivided >= 0) visit(static_cast<std::size_t>(undivided));
-}
-
 /// Step 6: finds the clusters. The verdicts need not be known yet.
 void find_clusters(const Parameters& parameters, const RunContext& context, SegmentedScan& scan);
-/// Counts the points of the clusters, and what is dynamic in them.
-void count_points(SegmentedScan& scan);
-/// Step 6: counts what is dynamic in the clusters, and divides those that are mixed. Of what was
-/// divided a cluster more tells what it was.
-void divide_clusters(const EvidenceMap& map, const Parameters& parameters,
-                     const RunContext& context, SegmentedScan& scan);
+/// Adds what is known of a voxel to the sums of an object that has some points in it.
+void add_evidence_of(std::uint32_t voxel, std::uint32_t points, const EvidenceMap& map,
+                     ObjectEvidence& sum);
+/// Step 6: sums the evidence of the clusters' points.
+void add_evidence_of_points(const EvidenceMap& map, SegmentedScan& scan);
 
-/// What step 7 needs of the clusters. Those too small, too wide or too sparse to be followed are
-/// left out.
-/// @param steps of the sensor
+/// What step 7 needs of the clusters. Clusters too small or too wide to be followed are left out.
 std::vector<ObjectSummary> summarise_objects(const SegmentedScan& scan, const EvidenceMap& map,
-                                             const DirectionSteps& steps,
                                              const Parameters& parameters,
                                              const RunContext& context);
 
-/// Steps 6 and 7: the verdicts after each cluster was taken as one thing. Mostly dynamic ones and
-/// those that a track marked are dynamic as a whole, except for what lasts in the former. Hardly
-/// dynamic ones are static, except for groups of dynamic points that hang together. Fragments go
-/// with what goes beside them.
+/// Steps 6 and 7: the verdicts after each cluster was taken as one thing. Dynamic clusters and
+/// those that a track marked are dynamic as a whole, clusters with next to no dynamic points are
+/// static. Where a cluster joins what moves to what stands, the other thing keeps its own verdict.
+/// Fragments go with what goes beside them.
 /// @param marked numbers of the clusters that a track marked
-Verdicts decide_objects(const SegmentedScan& scan, const EvidenceMap& map,
-                        const std::vector<int>& marked, const Parameters& parameters,
+Verdicts decide_objects(const SegmentedScan& scan, const std::vector<int>& marked,
+                        const EvidenceMap& map, const Parameters& parameters,
                         const RunContext& context);
 
 }  // namespace raymoval::raymoval_plus_method

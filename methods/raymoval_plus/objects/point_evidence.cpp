@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/objects/point_evidence.h"
 
+#include "methods/raymoval_plus/evidence/evidence.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -15,39 +17,28 @@ std::vector<float> object_shares(const SegmentedScan& scan) {
   std::vector<float> shares(scan.scan.size(), kNoObject);
   for (std::size_t i = 0; i < scan.high_points.size(); ++i) {
     const Cluster& cluster = scan.clusters[static_cast<std::size_t>(scan.cluster_of[i])];
-    shares[scan.high_points[i]] =
-        static_cast<float>(cluster.dynamic) / static_cast<float>(std::max(cluster.points, 1));
+    shares[scan.high_points[i]] = static_cast<float>(cluster.evidence.dynamic) /
+                                  static_cast<float>(std::max(cluster.points, 1));
   }
   return shares;
 }
 
-/// The `free_share` of a point's voxel, but 0 for ground that stays.
-float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps,
-                const Parameters& parameters) {
+/// The contradiction of a point's voxel, but 0 for ground that stays.
+float own_share(const LocatedScan& scan, std::size_t k, const EvidenceMaps& maps) {
   if (scan.has_standing_voxel(k)) {
-    return free_share(maps.standing.evidence(scan.voxel[k]), parameters);
+    return contradiction(maps.standing.evidence(scan.voxel[k]));
   }
   if (scan.verdict[k] != Verdict::kDynamic) return 0.0F;
-  return free_share(maps.ground.evidence(scan.ground_voxel[k]), parameters);
+  return contradiction(maps.ground.evidence(scan.ground_voxel[k]));
 }
 
 }  // namespace
 
-float free_share(const VoxelEvidence& evidence, const Parameters& parameters) {
-  const auto needed = static_cast<float>(parameters.free_constant +
-                                         parameters.free_per_agree * evidence.agree_scans);
-  const auto free = static_cast<float>(evidence.free_scans);
-  const float by_count = free > 0.0F ? free / (free + needed) : 0.0F;
-  if (parameters.run_scans == 0) return by_count;
-  const auto run = static_cast<float>(std::max(evidence.leading_free, evidence.trailing_free));
-  return std::max(by_count, run / (run + static_cast<float>(parameters.run_scans)));
-}
-
 std::vector<float> evidence_of_points(const SegmentedScan& scan, const Verdicts& decided,
-                                      const EvidenceMaps& maps, const Parameters& parameters) {
+                                      const EvidenceMaps& maps) {
   std::vector<float> evidence = object_shares(scan);
   for (std::size_t k = 0; k < evidence.size(); ++k) {
-    const float own = own_share(scan, k, maps, parameters);
+    const float own = own_share(scan, k, maps);
     const float object = evidence[k] == kNoObject ? own : evidence[k];
     const float verdict = decided[k] == Verdict::kDynamic ? 1.0F : 0.0F;
     evidence[k] = 0.5F * verdict + 0.25F * (own + object);

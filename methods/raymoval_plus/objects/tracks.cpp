@@ -14,6 +14,15 @@ namespace {
 /// by which the centre of a standing thing shifts.
 constexpr std::size_t kLeastStanding = 3;
 constexpr double kStandingMotion = 0.05;
+/// An object may be so fast before its speed is known, metres a second.
+constexpr double kFirstSpeed = 40.0;
+/// Scans that a track may miss, while something passes before the object; and while the object
+/// stands.
+constexpr int kLongestGap = 2, kLongestGapStanding = 10;
+/// How far an object may be from where its track is expected, metres; and by how much more, times
+/// the square of the seconds between: by 3 m/s^2, which drivers seldom exceed. What is known of its
+/// speed is a mean of its last steps, so that it is half as much again.
+constexpr double kGate = 0.6, kAcceleration = 4.5;
 /// An object may be farther from where its track is expected by this share of the way that it
 /// should have gone: things speed up, brake, turn, and are seen in part.
 constexpr double kGateShare = 0.35;
@@ -37,6 +46,19 @@ Eigen::Vector3d expected_center(const Track& track, int scans) {
   return track.nodes.back().object.center + track.velocity * scans;
 }
 
+/// How far an object may be from where the track is expected after so many scans and seconds.
+double gate(const Track& track, int scans, double seconds) {
+  const double step = std::min(seconds, kLongestStep);
+  return kGate + kAcceleration * step * step + kGateShare * track.velocity.norm() * scans;
+}
+
+/// The same at most, also for what may be fast; metres. @param time_s of the object
+double farthest(const Track& track, int scans, double time_s) {
+  const double widest = gate(track, scans, kLongestStep);
+  if (track.nodes.size() > 1) return widest;
+  return std::max(widest, kFirstSpeed * std::abs(time_s - track.nodes[0].object.time_s));
+}
+
 /// Whether the object of a track stands.
 bool stands(const Track& track) {
   return track.nodes.size() >= kLeastStanding && track.velocity.norm() < kStandingMotion;
@@ -56,28 +78,13 @@ int dynamic_objects(const Track& track, const Parameters& parameters) {
 
 double scans_passing(const ObjectSummary& object, const Motion& motion,
                      const Parameters& parameters) {
-  const double reach = parameters.agree_constant + parameters.agree_slope * object.range;
+  const double reach = parameters.hit_distance + Parameters::distance_slope * object.range;
   return (motion.length + 2.0 * reach + parameters.voxel_size) / motion.speed;
 }
 
-double scans_explained(const ObjectSummary& object, const Motion& motion,
-                       const Parameters& parameters) {
-  return parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
-}
-
 bool is_explained(const ObjectSummary& object, const Motion& motion, const Parameters& parameters) {
-  return object.agree_scans <= scans_explained(object, motion, parameters);
-}
-
-double ObjectTracker::gate(const Track& track, int scans, double seconds) const {
-  const double brakes = rules_.gate.acceleration * seconds * seconds;
-  return rules_.gate.metres + brakes + kGateShare * track.velocity.norm() * scans;
-}
-
-double ObjectTracker::farthest(const Track& track, int scans, double time_s) const {
-  const double widest = gate(track, scans, kLongestStep);
-  if (track.nodes.size() > 1) return widest;
-  return std::max(widest, rules_.first_speed * std::abs(time_s - track.nodes[0].object.time_s));
+  return object.hits <=
+         parameters.track_slack * scans_passing(object, motion, parameters) + kScansMore;
 }
 
 std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSummary& found,
@@ -85,9 +92,9 @@ std::optional<double> ObjectTracker::mismatch(const Track& track, const ObjectSu
   const ObjectSummary& last = track.nodes.back().object;
   const double distance = (found.center - expected_center(track, scans)).head<2>().norm();
   const double seconds = std::abs(found.time_s - last.time_s);
-  if (distance > gate(track, scans, std::min(seconds, kLongestStep))) {
+  if (distance > gate(track, scans, seconds)) {
     // Nothing is known of the speed of what was seen once, but what is fast is new where it is.
-    const bool may_be_fast = track.nodes.size() == 1 && distance <= rules_.first_speed * seconds &&
+    const bool may_be_fast = track.nodes.size() == 1 && distance <= kFirstSpeed * seconds &&
                              is_explained(found, {last.width(), distance / scans}, parameters_);
     if (!may_be_fast) return std::nullopt;
   }
@@ -107,7 +114,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
     const double x = expected_center(active_[t], scans).x();
     const double reach = farthest(active_[t], scans, time_s);
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (std::abs(objects[k].center.x() - x) > reach || !may_follow(objects[k])) continue;
+      if (std::abs(objects[k].center.x() - x) > reach) continue;
       if (const auto distance = mismatch(active_[t], objects[k], scans)) {
         pairs.emplace_back(*distance, t, k);
       }
@@ -123,7 +130,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
   }
   end_tracks(scan);
   for (std::size_t k = 0; k < objects.size(); ++k) {
-    if (is_used[k] == 0 && may_follow(objects[k]) && is_dynamic(objects[k], parameters_)) {
+    if (is_used[k] == 0 && is_dynamic(objects[k], parameters_)) {
       active_.push_back({{{scan, objects[k]}}});
     }
   }
@@ -132,7 +139,7 @@ void ObjectTracker::follow(std::size_t scan, const std::vector<ObjectSummary>& o
 void ObjectTracker::end_tracks(std::size_t scan) {
   std::vector<Track> kept;
   for (Track& track : active_) {
-    const int patience = stands(track) ? rules_.gate.patience : kLongestGap;
+    const int patience = stands(track) ? kLongestGapStanding : kLongestGap;
     if (scans_between(track.nodes.back().scan, scan) <= patience) {
       kept.push_back(std::move(track));
     } else if (dynamic_objects(track, parameters_) >= kLeastDynamic) {

@@ -8,14 +8,12 @@
 
 namespace raymoval::raymoval_plus_method {
 
-RecentObjects::RecentObjects(const Parameters& parameters, const DirectionSteps& steps)
-    : parameters_(parameters), steps_(steps), before_(parameters, {.first_speed = kFirstSpeed}) {}
+RecentObjects::RecentObjects(const Parameters& parameters)
+    : parameters_(parameters), before_(parameters) {}
 
 void RecentObjects::take(const SegmentedScan& scan, const EvidenceMap& map,
                          const RunContext& context) {
-  std::vector<ObjectSummary> objects = summarise_objects(scan, map, steps_, parameters_, context);
-  // No point's own cluster is one, so that none of their pieces would be known.
-  std::erase_if(objects, [](const ObjectSummary& object) { return object.is_undivided; });
+  std::vector<ObjectSummary> objects = summarise_objects(scan, map, parameters_, context);
   Pieces pieces = pieces_of(scan, map, objects);
   const std::size_t index = scan.scan.index;
   if (objects_.empty()) first_ = index;
@@ -66,17 +64,16 @@ void RecentObjects::add_blocks(const EvidenceMap& map, std::vector<std::uint32_t
 void RecentObjects::judge(const EvidenceMap& map, const RunContext& context) {
   const StageScope timed(context.times, "recent objects");
   for (std::size_t i = 0; i < objects_.size(); ++i) {
-    for (ObjectSummary& object : objects_[i]) object.dynamic = 0;
+    for (ObjectSummary& object : objects_[i]) object.evidence = {};
     for (const Piece& piece : pieces_[i].all) {
-      if (map.verdict(piece.voxel) != Verdict::kDynamic) continue;
-      objects_[i][piece.object].dynamic += static_cast<int>(piece.points);
+      add_evidence_of(piece.voxel, piece.points, map, objects_[i][piece.object].evidence);
     }
   }
 }
 
 std::vector<int> RecentObjects::marked(std::size_t scan, const RunContext& context) const {
   const StageScope timed(context.times, "tracks");
-  ObjectTracker forward = before_, backward(parameters_, {.first_speed = kFirstSpeed});
+  ObjectTracker forward = before_, backward(parameters_);
   for (std::size_t i = 0; i < objects_.size(); ++i) forward.follow(first_ + i, objects_[i]);
   std::vector<int> marked = marked_in(scan, forward.finish(), parameters_);
   for (std::size_t i = objects_.size(); i > 0 && first_ + i > scan + 1; --i) {

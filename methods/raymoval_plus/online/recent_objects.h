@@ -18,7 +18,7 @@ namespace raymoval::raymoval_plus_method {
 /// answered.
 class RecentObjects {
  public:
-  explicit RecentObjects(const Parameters& parameters, const DirectionSteps& steps = {});
+  explicit RecentObjects(const Parameters& parameters);
 
   /// Takes the clusters of a scan, after those of the scans before. Those of a scan that it has
   /// already are replaced. At most the last `recent_scans` up to the first scan that waits are
@@ -49,7 +49,6 @@ class RecentObjects {
                                  const std::vector<ObjectSummary>& objects) const;
 
   Parameters parameters_;
-  DirectionSteps steps_;
   ObjectTracker before_;   ///< The tracks up to the first scan that is kept.
   std::size_t first_ = 0;  ///< The scan that comes first in both lists.
   std::vector<std::vector<ObjectSummary>> objects_;

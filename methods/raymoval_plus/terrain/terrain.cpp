@@ -27,11 +27,6 @@ constexpr std::size_t kStacksATask = 64;
 /// A distance of three columns of 0.4 m is not to be more than 1.2 m.
 constexpr double kReachRounding = 1e-9;
 
-/// Whether ground farther away bounds the ground.
-bool looks_far(const Parameters& parameters) {
-  return parameters.terrain_far_slope > 0.0;
-}
-
 /// Adds a box around the columns of a tile whose values differ, if any do.
 template <class Value>
 void add_changes(const VoxelIndex& tile, const std::vector<Value>& found, const Value* before,
@@ -198,18 +193,16 @@ Terrain::Window Terrain::land_in(const VoxelIndex& tile, int axis) const {
 }
 
 int Terrain::bound_margin() const {
-  return looks_far(parameters_) ? kFarReach + reach_ : reach_;
+  return kFarReach + reach_;
 }
 
 std::vector<GroundPlane> Terrain::ground_in(const VoxelIndex& tile) const {
   const int margin = bound_margin();
   Window ground = around_tile(own_ground_, tile, margin);
-  if (looks_far(parameters_)) {
-    const Window rises =
-        highest_rises(around_tile(land_x_, tile, margin), around_tile(land_y_, tile, margin),
-                      parameters_.terrain_cell, parameters_.terrain_far_slope);
-    ground = bounded_from_afar(ground, rises, kTile + 2 * margin);
-  }
+  const Window rises =
+      highest_rises(around_tile(land_x_, tile, margin), around_tile(land_y_, tile, margin),
+                    parameters_.terrain_cell, parameters_.terrain_far_slope);
+  ground = bounded_from_afar(ground, rises, kTile + 2 * margin);
   const Window rise_x = around_tile(land_x_, tile, 0), rise_y = around_tile(land_y_, tile, 0);
   std::vector<GroundPlane> planes(rise_x.size());
   for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -35,13 +35,13 @@ constexpr Line kLines[] = {
     {"raymoval:table1", "= = ? = ? = ? ? ?"},
     {"raymoval:table1-online", "= = ? = ? = = ? ?"},
 
-    // Runs of scans, gaps of tracks, kept scans and the ground's period count scans, empty ones
-    // too. Means of voxels and of objects are sums, which round.
-    // With a delay, an empty scan at the end is one more that came before the last answers.
-    {"raymoval_plus:offline", "= ? ? ~ ? = ? ? ?"},
-    {"raymoval_plus:online", "= ? ? ~ ? = = ? ?"},
-    {"raymoval_plus:online-lag", "? ? ? ~ ? = = ? ?"},
-    {"raymoval_plus:online-map", "? ? ? ~ ? = ? ? ?"},
+    // First and last passes, gaps of tracks and kept scans count scans, empty ones too. Means and
+    // deviations of voxels and of objects are sums, which round, and parts of cells lie otherwise
+    // in a world that is turned.
+    {"raymoval_plus:offline", "= ? ? ~ ? ~ ? ? ?"},
+    {"raymoval_plus:online", "= ? ? ~ ? ~ = ? ?"},
+    {"raymoval_plus:online-lag", "= ? ? ~ ? ~ = ? ?"},
+    {"raymoval_plus:online-map", "= ? ? ~ ? ~ ? ? ?"},
 
     // A scan is a set of cells, hit or crossed once. Clamping makes the order of scans count. The
     // ground plane and the outliers come from the list of points.

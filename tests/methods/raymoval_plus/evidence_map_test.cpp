@@ -2,31 +2,69 @@
 #include "methods/raymoval_plus/evidence/evidence_map.h"
 
 #include <catch2/catch.hpp>
-#include <map>
-#include <random>
+#include <cmath>
 
+#include "methods/raymoval_plus/evidence/located_scan.h"
 #include "tests/methods/raymoval_plus/map_points.h"
 
 namespace raymoval::raymoval_plus_test {
 using namespace raymoval::raymoval_plus_method;
 
-TEST_CASE("blocks hold what was put into their cells, for either sign") {
-  std::mt19937 random(5);
-  std::uniform_int_distribution<int> coordinate(-40, 40);
-  DenseBlocks<int, 2, 4> blocks(-1);
-  DenseBlocks<int, 2, 4>::Cursor cursor, reading;
-  std::map<VoxelKey, int> oracle;
-  for (int i = 0; i < 5000; ++i) {
-    const VoxelIndex cell(coordinate(random), coordinate(random), coordinate(random));
-    blocks.make(cell, cursor) = i;
-    oracle[voxel_key(cell)] = i;
+namespace {
+
+/// A scan of some points of the world, at some heights above the ground.
+LocatedScan located(const std::vector<Eigen::Vector3d>& points, const std::vector<float>& heights,
+                    const EvidenceMaps& maps) {
+  LocatedScan scan;
+  for (const Eigen::Vector3d& point : points) scan.scan.points.push_back(point.cast<float>());
+  scan.height = heights;
+  maps.standing.find_cells_of(scan.scan, 1, scan.in_map);
+  return scan;
+}
+
+/// Makes the decision on each voxel of a map a verdict.
+void set_verdicts(EvidenceMap& map, Verdict verdict) {
+  for (std::uint32_t voxel = 0; voxel < map.size(); ++voxel) map.set_decision(voxel, verdict);
+  for (std::uint32_t block = 0; block < map.blocks().block_count(); ++block) {
+    map.take_decisions(block);
   }
-  for (int i = 0; i < 20000; ++i) {
-    const VoxelIndex cell(coordinate(random), coordinate(random), coordinate(random));
-    const auto found = oracle.find(voxel_key(cell));
-    REQUIRE(blocks.get(cell, reading) == (found == oracle.end() ? -1 : found->second));
+}
+
+}  // namespace
+
+TEST_CASE("what stands and the ground below it have voxels and verdicts of their own") {
+  const Parameters parameters;
+  EvidenceMaps maps{parameters};
+  // Two points of the road and one 0.1 m above it, in a voxel of the road.
+  LocatedScan scan = located({{5.25, 0.1, 0.01}, {5.55, 0.1, 0.02}, {5.25, 0.1, 0.11}},
+                             {0.01F, 0.02F, 0.11F}, maps);
+  add_to_maps(parameters, RunContext{}, scan, maps);
+  CHECK(maps.sizes() == std::array<std::size_t, 2>{1, 1});
+  CHECK(scan.voxel == std::vector<std::uint32_t>{EvidenceMap::kNone, EvidenceMap::kNone, 0});
+  CHECK(scan.ground_voxel == std::vector<std::uint32_t>{0, 0, EvidenceMap::kNone});
+  for (const auto& [standing, ground] : {std::pair{Verdict::kDynamic, Verdict::kStatic},
+                                         std::pair{Verdict::kStatic, Verdict::kDynamic}}) {
+    set_verdicts(maps.standing, standing);
+    set_verdicts(maps.ground, ground);
+    look_up(maps, parameters, RunContext{}, scan);
+    CHECK(scan.verdict == std::vector<Verdict>{ground, ground, standing});
   }
-  CHECK(blocks.get({1000, 0, 0}, reading) == -1);
+}
+
+TEST_CASE("a point whose height is found anew moves from one map to the other") {
+  const Parameters parameters;
+  EvidenceMaps maps{parameters};
+  LocatedScan scan =
+      located({{5.0, 0.1, 0.01}, {9.0, 0.1, 0.5}, {13.0, 0.1, 0.5}}, {0.01F, 0.5F, 0.5F}, maps);
+  add_to_maps(parameters, RunContext{}, scan, maps);
+  CHECK(maps.sizes() == std::array<std::size_t, 2>{2, 1});
+  scan.height = {0.6F, 0.02F, 0.5F};
+  correct_voxels(parameters, RunContext{}, scan, maps);
+  CHECK(scan.voxel == std::vector<std::uint32_t>{2, EvidenceMap::kNone, 1});
+  CHECK(scan.ground_voxel == std::vector<std::uint32_t>{EvidenceMap::kNone, 1, EvidenceMap::kNone});
+  CHECK(maps.standing.centroid(2).x() == Approx(5.0).margin(0.001));
+  CHECK(maps.ground.centroid(1).x() == Approx(9.0).margin(0.002));
+  CHECK(maps.sizes() == std::array<std::size_t, 2>{3, 2});
 }
 
 TEST_CASE("a voxel has the mean of its points, and is found within range of it") {
@@ -35,10 +73,8 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
   // Two points of one voxel, and one of a voxel 40 m away, some tiles of 12.8 m farther.
   const auto near = points.add({-0.15, 0.05, 1.05});
   CHECK(points.add({-0.05, 0.15, 1.05}) == near);
-  const auto far = points.add({40.1, 0.1, 1.1});
+  points.add({40.1, 0.1, 1.1});
   CHECK(map.size() == 2);
-  CHECK(points.find({-0.01, 0.01, 1.19}) == near);
-  CHECK(points.find({0.01, 0.01, 1.19}) == EvidenceMap::kNone);
   CHECK((map.centroid(near) - Eigen::Vector3d(-0.1, 0.1, 1.05)).norm() < 0.001);  // 1/256 of 0.2 m
 
   map.update_means();
@@ -49,50 +85,37 @@ TEST_CASE("a voxel has the mean of its points, and is found within range of it")
   const Eigen::Vector3f mean = Eigen::Map<const Eigen::Vector3f>(tile.places.data());
   CHECK((tile.origin + mean.cast<double>() - map.centroid(near)).norm() < 1e-5);
   CHECK(map.tiles_near({0.0, 0.0, 0.0}, 40.0).size() == 2);
-
-  map.set_decision(far, Verdict::kDynamic);
-  CHECK(map.dynamic_in(map.block_of(far)) == 1);
-  map.set_decision(far, Verdict::kStatic);
-  CHECK(map.dynamic_in(map.block_of(far)) == 0);
 }
 
-TEST_CASE("a roof stands alone in its column, one voxel high or two") {
-  // Other voxels at these heights above it, metres.
-  struct Others {
-    std::vector<double> above;
-    bool is_roof;
-  };
-  const auto [above, is_roof] = GENERATE(
-      Others{{}, true}, Others{{0.2}, true}, Others{{-0.2}, true}, Others{{-0.2, 0.2}, false},
-      Others{{0.4}, false}, Others{{-1.6}, false}, Others{{1.6}, false}, Others{{-1.8, 1.8}, true});
-  MapPoints points;
-  const Eigen::Vector3d at(-3.95, 7.05, -0.55);
-  const auto roof = points.add(at);
-  for (const double metres : above) points.add(at + Eigen::Vector3d(0.0, 0.0, metres));
-  points.add(at + Eigen::Vector3d(0.2, 0.0, -0.4));  // Beside it.
-  CAPTURE(above);
-  EvidenceMap::Blocks::Cursor cursor;
-  CHECK(points.map.is_roof(roof, cursor) == is_roof);
-}
-
-TEST_CASE("a column goes on over gaps, but not over wide ones") {
-  // Voxels of 0.2 m at these heights above the first one, metres, one of which is aside.
-  MapPoints points;
-  const auto at = [](double height) { return Eigen::Vector3d(-3.95, 7.05, -0.55 + height); };
-  const auto first = points.add(at(0.0));
-  for (const double height : {-0.2, 0.6, 1.6, 2.8}) points.add(at(height));
-  points.add(at(2.2) + Eigen::Vector3d(0.2, 0.0, 0.0));
-  EvidenceMap::Blocks::Cursor cursor;
-  const auto reaches = [&](double height) {
-    return points.map.column_reaches(first, at(height).z(), cursor);
-  };
-  CHECK(reaches(0.0));
-  CHECK(reaches(-0.2));
-  CHECK_FALSE(reaches(-0.4));
-  CHECK(reaches(0.4));
-  CHECK(reaches(1.6));  // Over 0.8 m, four cells.
-  CHECK_FALSE(reaches(1.8));
-  CHECK_FALSE(reaches(2.8));  // Over 1 m.
+TEST_CASE("a voxel has the distribution of its points, and a plane if they are on one") {
+  // Nine points on a level square of 0.08 m: x and y have a variance of 0.04^2 m^2 x 2 / 3, and
+  // 0.04^2 m^2 are added to that of all axes.
+  for (const bool knows_planes : {true, false}) {
+    EvidenceMap map(0.2, knows_planes);
+    EvidenceMap::Blocks::Cursor cursor;
+    const auto add = [&](double x, double y, double z) {
+      const MapPoint at({x, y, z});
+      return map.add(at.cell, at.parts, cursor);
+    };
+    for (int k = 0; k < 9; ++k) add(0.06 + 0.04 * (k % 3), 0.06 + 0.04 * (k / 3), 0.1);
+    const VoxelShape flat = map.shape(0);
+    CHECK(flat.xx == Approx(1.0 / (0.0016 + 0.0010667)).epsilon(0.02));
+    CHECK(flat.yy == Approx(flat.xx).epsilon(0.02));
+    CHECK(flat.zz == Approx(1.0 / 0.0016).epsilon(0.02));
+    CHECK(flat.radius == Approx(std::sqrt(0.0026667)).epsilon(0.02));
+    CHECK(std::abs(flat.nz) > 0.999F);
+    // 0.04 m are more than 0.7 times 0.052 m, so that it is no plane; over 0.16 m they are less.
+    CHECK(flat.behind == 0.0F);
+    const auto wide = add(5.0 + 0.02, 0.02, 0.1);
+    for (const double x : {0.02, 0.18}) {
+      for (const double y : {0.02, 0.18}) add(5.0 + x, y, 0.1);
+    }
+    CHECK(map.shape(wide).behind == (knows_planes ? Approx(0.14).epsilon(0.01) : Approx(0.0)));
+    map.see_from(wide, 12.0F);
+    map.see_from(wide, 7.0F);
+    map.see_from(wide, 9.0F);
+    CHECK(map.shape(wide).nearest == 7.0F);
+  }
 }
 
 }  // namespace raymoval::raymoval_plus_test

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
-#include <random>
 
 #include "methods/raymoval_plus/terrain/land.h"
 
@@ -14,24 +13,9 @@ namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
 constexpr double kCell = 0.4;
-constexpr int kMargin = kFarReach + kLandMargin;
 
 std::size_t at(int x, int y, int side) {
   return static_cast<std::size_t>(y * side + x);
-}
-
-/// Ground of which a share is known: rough, on a slope, with objects on it.
-std::vector<float> random_ground(int side, double known, std::mt19937& random) {
-  std::uniform_real_distribution<float> zero_to_one(0.0F, 1.0F);
-  std::vector<float> ground(static_cast<std::size_t>(side * side), kNowhere);
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      if (zero_to_one(random) >= static_cast<float>(known)) continue;
-      const float thing = zero_to_one(random) < 0.2F ? 3.0F * zero_to_one(random) : 0.0F;
-      ground[at(x, y, side)] = 0.05F * static_cast<float>(x) + 0.1F * zero_to_one(random) + thing;
-    }
-  }
-  return ground;
 }
 
 std::vector<float> bounded(const std::vector<float>& ground, int side) {
@@ -83,48 +67,6 @@ TEST_CASE("a slope of any steepness bounds nothing that lies on it") {
       CHECK(found[at(40, 40, side)] - ground[at(40, 40, side)] < 0.7F);
     }
   }
-}
-
-TEST_CASE("far ground turns with the world") {
-  std::mt19937 random(3);
-  const int side = 70;
-  for (const double known : {0.1, 0.4, 1.0}) {
-    const std::vector<float> ground = random_ground(side, known, random);
-    std::vector<float> turned(ground.size());
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) turned[at(side - 1 - y, x, side)] = ground[at(x, y, side)];
-    }
-    const std::vector<float> found = bounded(ground, side);
-    const std::vector<float> of_turned = bounded(turned, side);
-    int lowered = 0, others = 0;
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        lowered += found[at(x, y, side)] < ground[at(x, y, side)] ? 1 : 0;
-        others += of_turned[at(side - 1 - y, x, side)] != found[at(x, y, side)] ? 1 : 0;
-      }
-    }
-    CHECK(lowered > 0);
-    CHECK(others == 0);
-  }
-}
-
-TEST_CASE("ground beyond the margin changes nothing") {
-  std::mt19937 random(4);
-  const int inner = 2 * kMargin + 9, outer = inner + 20;
-  const std::vector<float> ground = random_ground(outer, 0.4, random);
-  std::vector<float> part(static_cast<std::size_t>(inner * inner));
-  for (int y = 0; y < inner; ++y) {
-    for (int x = 0; x < inner; ++x) part[at(x, y, inner)] = ground[at(x + 10, y + 10, outer)];
-  }
-  const std::vector<float> of_all = bounded(ground, outer);
-  const std::vector<float> of_part = bounded(part, inner);
-  int others = 0;
-  for (int y = kMargin; y < inner - kMargin; ++y) {
-    for (int x = kMargin; x < inner - kMargin; ++x) {
-      others += of_part[at(x, y, inner)] != of_all[at(x + 10, y + 10, outer)] ? 1 : 0;
-    }
-  }
-  CHECK(others == 0);
 }
 
 }  // namespace raymoval::raymoval_plus_test

@@ -58,12 +58,10 @@ TEST_CASE("land of which little is known is level") {
 
 TEST_CASE("a tenth counts as level, and what is above that as steep") {
   // A tenth of 0.4 m is 0.04 m a column.
-  const GroundPlane level =
-      steep_part(0.024F, -0.032F, kColumn);  // Together they rise by just that.
+  const GroundPlane level = steep_part(0.024F, -0.032F, kColumn);  // Together by just that.
   CHECK(level.rise_x == 0.0F);
   CHECK(level.rise_y == 0.0F);
-  const GroundPlane steep =
-      steep_part(0.12F, -0.16F, kColumn);  // 0.2 m a column: 0.16 m are above.
+  const GroundPlane steep = steep_part(0.12F, -0.16F, kColumn);  // 0.2 m: 0.16 m are above.
   CHECK(steep.rise_x == Approx(0.096));
   CHECK(steep.rise_y == Approx(-0.128));
   CHECK(steep.middle == 0.0F);

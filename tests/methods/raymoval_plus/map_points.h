@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "methods/raymoval_plus/evidence/evidence_map.h"
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include "methods/raymoval_plus/evidence/evidence.h"
 
 namespace raymoval::raymoval_plus_test {
 
-/// The voxel of a world point (metres) in a map with voxels of 0.2 m, and where the point is in it;
-/// written without the kernels.
+/// The voxel of a world point (metres) in a map with voxels of 0.2 m, and where the point is in it.
 struct MapPoint {
   explicit MapPoint(const Eigen::Vector3d& point) : cell(voxel_index(point, 5.0)) {
     const Eigen::Vector3d offset = 256.0 * (5.0 * point - cell.cast<double>());
@@ -37,5 +40,28 @@ class MapPoints {
  private:
   raymoval_plus_method::EvidenceMap::Blocks::Cursor cursor_;
 };
+
+/// The evidence of scans from number `first` on, one for each letter: h hits, p passes, o is open,
+/// and any other letter is of a scan that observed nothing.
+inline raymoval_plus_method::VoxelEvidence evidence_of(std::string_view story,
+                                                       std::size_t first = 0) {
+  using raymoval_plus_method::Observation;
+  raymoval_plus_method::VoxelEvidence evidence;
+  for (const char seen : story) {
+    const Observation observation = seen == 'h'   ? Observation::kHit
+                                    : seen == 'p' ? Observation::kPassed
+                                    : seen == 'o' ? Observation::kOpen
+                                                  : Observation::kUnknown;
+    raymoval_plus_method::add_observation(observation, first++, evidence);
+  }
+  return evidence;
+}
+
+/// The numbers of all blocks of a map.
+inline std::vector<std::uint32_t> all_blocks(const raymoval_plus_method::EvidenceMap& map) {
+  std::vector<std::uint32_t> blocks(map.blocks().block_count());
+  std::iota(blocks.begin(), blocks.end(), 0U);
+  return blocks;
+}
 
 }  // namespace raymoval::raymoval_plus_test

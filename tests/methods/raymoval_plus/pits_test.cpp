@@ -51,18 +51,4 @@ TEST_CASE("pits are found as by counting, on even, rough and sparse ground") {
   CHECK(without_pits(ground, side, 0.5F) == slow_without_pits(ground, side, 0.5F));
 }
 
-TEST_CASE("a pit is dropped if more than three quarters of the columns around it are above it") {
-  // All 81 columns around the middle one have ground; in 20 it is as low as in the middle: with the
-  // middle these are 21, one more than a quarter. With one less, the middle one is a pit.
-  constexpr int kSide = 9;
-  std::vector<float> ground(kSide * kSide, 0.0F);
-  const std::size_t middle = 40;
-  for (std::size_t low = 0; low < 20; ++low) ground[low] = -1.0F;
-  ground[middle] = -1.0F;
-  CHECK(without_pits(ground, kSide, 0.5F)[middle] == -1.0F);
-  ground[0] = 0.0F;
-  CHECK(without_pits(ground, kSide, 0.5F)[middle] == kNone);
-  CHECK(without_pits(ground, kSide, 1.0F)[middle] == -1.0F);
-}
-
 }  // namespace raymoval::raymoval_plus_test

@@ -67,12 +67,4 @@ TEST_CASE("times that stand still are an error before memory is full") {
       Catch::Contains("256 scans came within the delay of 1 s") && Catch::Contains("times.txt"));
 }
 
-TEST_CASE("a delay that is too long for a fast sensor is refused, and a shorter one is not") {
-  // 256 scans take 8.5 s.
-  std::vector<double> times;
-  for (int i = 0; i < 400; ++i) times.push_back(i / 30.0);
-  CHECK_THROWS_WITH(known_scans(10.0, times), Catch::Contains("set a shorter delay"));
-  CHECK(known_scans(8.0, times)[0] == 241);
-}
-
 }  // namespace raymoval::raymoval_plus_test
