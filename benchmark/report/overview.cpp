@@ -160,6 +160,22 @@ std::string confidence_html(const RunResults& results) {
   return html;
 }
 
+std::string sequences_html(const RunResults& results) {
+  std::string html;
+  for (const std::string& sequence : results.sequences) {
+    std::string charts;
+    for (const std::string& protocol : results.protocols) {
+      charts += chart_html(interval_chart(results, protocol, sequence));
+    }
+    charts += chart_html(parts_chart(results, sequence));
+    if (charts.empty()) continue;
+    html += std::string(html.empty() ? "<details open>" : "<details>") + "<summary>" +
+            html_name(sequence) + "</summary>\n<div class=\"charts\">\n" + charts +
+            "</div></details>\n";
+  }
+  return html;
+}
+
 std::string charts_html(const RunResults& results) {
   std::string html = "<div class=\"charts\">\n";
   for (const std::string& protocol : results.protocols) {

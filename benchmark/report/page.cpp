@@ -134,6 +134,7 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
       {"points", "Points", points_html(request, points)},
       {"failures", "Failed cells", failures_html(results)},
       {"charts", "Charts", charts_html(results)},
+      {"sequences", "Sequences", sequences_html(results)},
       {"losses", "Losses", losses_html(results)},
       {"confidence", "Confidence", confidence_html(results)},
       {"accuracy", "Accuracy", accuracy_html(results, request.published)},
