@@ -54,9 +54,12 @@ struct RowPlot {
     const auto rows = static_cast<double>(names.size());
     // The rows' own axis has no marks.
     const Plot plot(chart, corner, size, axis(), {0.5, rows + 0.5, rows + 2.0}, title, "");
-    for (std::size_t row = 0; with_names && row < names.size(); ++row) {
-      const double middle = (static_cast<double>(row) + 0.5) / rows;
-      chart.text(corner.x - 8.0, corner.y + middle * size.y + 4.0, names[row], "end");
+    for (std::size_t row = 0; row < names.size(); ++row) {
+      const double top = corner.y + static_cast<double>(row) / rows * size.y;
+      chart.line({{corner.x, top}, {corner.x + size.x, top}}, "grid");
+      if (with_names) {
+        chart.text(corner.x - 8.0, top + size.y / rows / 2.0 + 4.0, names[row], "end");
+      }
     }
     for (const RowValue& value : values) {
       const double up = rows - value.row;
@@ -235,7 +238,7 @@ Chart interval_chart(const RunResults& results, const std::string& protocol,
               "interval. Methods whose bars overlap may change places on other scans.");
   double left = 16.0;
   const double height = 26.0 * static_cast<double>(entries.size());
-  for (const auto& rate : {rates.headline, rates.removed, rates.kept}) {
+  for (const auto& rate : {rates.headline, rates.kept, rates.removed}) {
     if (!rate) continue;
     RowPlot plot{{}, {}, *rate, axis_title(*rate)};
     for (const Entry& entry : entries) {
