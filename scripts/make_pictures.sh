@@ -26,6 +26,8 @@ run=${1:-out/pictures}
   --method removert:rm3 --keep-removals --out "$run" >/dev/null
 
 "$raymoval" picture "$run" --overwrite -o $pictures/maps.png --size 300
+"$raymoval" picture "$run" --overwrite -o $pictures/before_after.png --size 420 --crop 10:100:-20:20 \
+  --only 'town/noop*' --only 'town/raymoval_plus*'
 
 # The steps of raymoval_plus, and where it fails.
 mkdir -p "$run-plus"
@@ -58,7 +60,7 @@ failure bollards town-305 50:76:-8:6 0.05
 failure market market -24:24:-12:10
 failure last_movers town 88:124:-4:24
 
-for picture in maps plus_steps plus_follower plus_gardens \
+for picture in maps before_after plus_steps plus_follower plus_gardens \
   plus_bollards plus_market plus_last_movers; do
   bytes=$(stat -c %s "$pictures/$picture.png")
   echo "$pictures/$picture.png: $bytes bytes"
