@@ -86,7 +86,7 @@ std::string rate_hint(const std::string& method, const RateSpec& rate, double va
          rate_text(rate.name, *interval->high);
 }
 
-/// A method on the sequence.
+/// A method on a sequence.
 struct Entry {
   std::string method;
   SeriesStyle look;
@@ -114,13 +114,13 @@ RateSpec share_rate(const std::string& name) {
 
 /// The columns of one kind, for all methods on a sequence.
 struct Parts {
-  std::vector<Entry> entries;
+  std::vector<Entry> entries;  ///< With columns.
   std::string kind;            ///< `ColumnName::kind`.
   std::string points, answer;  ///< "moving points", "removed".
 
   /// The share of a part with at least `kNamedClassPoints` points.
   [[nodiscard]] std::optional<double> share(const Entry& entry, const std::string& column) const {
-    const Share share = entry.cell->columns ? entry.cell->columns->find(column) : Share{};
+    const Share share = entry.cell->columns->find(column);
     return share.whole < kNamedClassPoints ? std::nullopt : share.percent();
   }
 
@@ -163,7 +163,6 @@ struct Parts {
     const auto count = static_cast<double>(entries.size());
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const double offset = (static_cast<double>(i) - (count - 1.0) / 2.0) / (count + 1.0);
-      if (!entries[i].cell->columns) continue;
       for (const ColumnValue& column : entries[i].cell->columns->values) {
         const ColumnName name = parse_column_name(column.name);
         const auto percent = share(entries[i], column.name);
@@ -261,7 +260,8 @@ Chart interval_chart(const RunResults& results, const std::string& protocol,
 }
 
 Chart parts_chart(const RunResults& results, const std::string& sequence) {
-  const std::vector<Entry> entries = entries_of(results, sequence);
+  std::vector<Entry> entries = entries_of(results, sequence);
+  std::erase_if(entries, [](const Entry& entry) { return !entry.cell->columns; });
   Chart chart("parts-" + sequence, "Points by range, time and class",
               "Above the share of moving points that are removed, below the share of static points "
               "that are kept: lines over range and over time, rows of classes. Parts with fewer "
