@@ -72,8 +72,10 @@ std::string weakness_text(const RunResults& results, const std::string& method,
       const std::string& column = table.groups[0].columns[i];
       const bool moves = column == "worst mover";
       if ((!moves && column != "worst static class") || row->cells[i].text == "-") continue;
+      std::string worst_class = row->cells[i].text;
+      worst_class.replace(worst_class.rfind(' '), 1, ", ");
       text += std::string(" Its worst ") + (moves ? "moving" : "static") + " class is " +
-              row->cells[i].text + " % " + (moves ? "removed." : "kept.");
+              worst_class + " % " + (moves ? "removed." : "kept.");
     }
   }
   return text;
@@ -167,11 +169,11 @@ std::string methods_html(const RunResults& results) {
     const std::size_t rate = i < costs ? i : i - 2;
     mark_best(table, i, !is_cost && rate_spec(rates[rate]).higher_is_better);
   }
+  std::string meanings;
   for (const std::string& protocol : results.protocols) {
-    if (!results.rates_of(protocol).empty()) {
-      table.notes.push_back(meaning_text(results, protocol));
-    }
+    if (!results.rates_of(protocol).empty()) meanings += meaning_text(results, protocol) + " ";
   }
+  if (!meanings.empty()) table.notes.push_back(meanings);
   table.notes.push_back(
       rate_units_text(rates) +
       " Bold: best, underlined: second; controls are listed below and not ranked. (4/5): the mean "

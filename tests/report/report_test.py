@@ -97,7 +97,7 @@ def check_accessible(browser):
 def check_sequences(browser):
     """Each sequence has its charts: bars of intervals, lines over range and time, rows of classes."""
     text = browser.run("document.getElementById('sequences').textContent")
-    for word in ("with 95 % intervals", "range, m", "time, % of the scans", "moving-car"):
+    for word in ("with 95 % intervals", "range, m", "time, % of the scans", "building"):
         check(f"a sequence shows '{word}'", word in text, text[:300])
     check("methods have bars", browser.run("document.querySelectorAll('#sequences .bar').length") > 0)
 
