@@ -38,7 +38,9 @@ std::string from_printable(const std::string& text) {
   std::string bytes;
   unsigned bits = 0;
   int count = 0;
-  const auto digit = [&](std::size_t i) { return text[i] == '!' ? 25U : static_cast<unsigned>(text[i] - '#'); };
+  const auto digit = [&](std::size_t i) {
+    return text[i] == '!' ? 25U : static_cast<unsigned>(text[i] - '#');
+  };
   for (std::size_t i = 0; i < text.size(); i += 2) {
     const bool is_pair = i + 1 < text.size();
     bits |= (is_pair ? digit(i) + 91 * digit(i + 1) : digit(i)) << count;
