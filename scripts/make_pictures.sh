@@ -26,6 +26,8 @@ run=${1:-out/pictures}
   --method removert:rm3 --keep-removals --out "$run" >/dev/null
 
 "$raymoval" picture "$run" --overwrite -o $pictures/maps.png --size 300
+"$raymoval" picture "$run" --overwrite -o $pictures/before_after.png --size 420 --crop 10:100:-20:20 \
+  --only 'town/noop*' --only 'town/raymoval_plus*'
 
 # The steps of raymoval_plus.
 mkdir -p "$run-plus"
@@ -47,7 +49,7 @@ EOF
   --only 'suburb/with-vote*' --only 'suburb/all-steps*' \
   --crop 10:58:-14:14 --resolution 0.1
 
-for picture in maps plus_steps; do
+for picture in maps before_after plus_steps; do
   bytes=$(stat -c %s "$pictures/$picture.png")
   echo "$pictures/$picture.png: $bytes bytes"
   if ((bytes > 300000)); then

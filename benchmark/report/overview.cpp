@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "benchmark/picture/charts/charts.h"
+#include "benchmark/picture/charts/plot.h"
 #include "benchmark/report/sections.h"
 #include "benchmark/tables/tables.h"
 #include "core/text.h"
@@ -21,6 +22,87 @@ std::string chart_html(const Chart& chart) {
   return chart.empty() ? ""
                        : "<div class=\"chart\" style=\"--width:" + length_text(chart.width()) +
                              "px\">" + chart.svg("") + "</div>\n";
+}
+
+/// "By erasor, PR is the share of static points or voxels that are kept, ...": the main rates.
+std::string meaning_text(const RunResults& results, const std::string& protocol) {
+  const ChartRates rates(results, protocol);
+  std::vector<std::string> parts;
+  const auto add = [&](const std::optional<RateSpec>& rate, const std::string& points,
+                       const char* good, const char* bad) {
+    if (!rate) return;
+    parts.push_back(rate->name + " is the share of " + points + " points or voxels that " +
+                    (rate->higher_is_better ? good : bad));
+  };
+  add(rates.kept, "static", "are kept", "are lost");
+  add(rates.removed, "moving", "are removed", "stay");
+  if (rates.headline) parts.push_back(rates.headline->name + " is both in one number");
+  return "By " + protocol + ", " + join(parts) + ".";
+}
+
+/// A method with its mean headline rate, and its time if that is known.
+struct Choice {
+  std::string method;
+  double accuracy = 0.0;
+  std::optional<double> ms;
+
+  [[nodiscard]] std::string text(const std::string& rate) const {
+    return html_name(method) + " (" + rate + " " + rate_text(rate, accuracy) +
+           (ms ? ", " + ms_text(*ms) + " per scan" : "") + ")";
+  }
+};
+
+/// Where a method fails: the sequence with its worst rate, and the classes that it loses.
+std::string weakness_text(const RunResults& results, const std::string& method,
+                          const std::string& protocol, const RateSpec& rate) {
+  std::string text;
+  const SegmentValues values = results.values(method, protocol, rate.name);
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (values[i] && (!values[worst] || rate.is_better(*values[worst], *values[i]))) worst = i;
+  }
+  if (values.size() > 1 && values[worst]) {
+    text += " Its worst sequence is " + results.sequences[worst] + " (" +
+            rate_text(rate.name, *values[worst]) + ").";
+  }
+  for (const TextTable& table : compact_column_tables(results)) {
+    const auto row = std::ranges::find(table.rows, method, &TableRow::label);
+    if (row == table.rows.end()) continue;
+    for (std::size_t i = 0; i < row->cells.size(); ++i) {  // "moving-bus 30.000"
+      const std::string& column = table.groups[0].columns[i];
+      const bool moves = column == "worst mover";
+      if ((!moves && column != "worst static class") || row->cells[i].text == "-") continue;
+      std::string worst_class = row->cells[i].text;
+      worst_class.replace(worst_class.rfind(' '), 1, ", ");
+      text += std::string(" Its worst ") + (moves ? "moving" : "static") + " class is " +
+              worst_class + " % " + (moves ? "removed." : "kept.");
+    }
+  }
+  return text;
+}
+
+/// The best method, where it fails, and methods that are faster.
+std::string choice_html(const RunResults& results) {
+  if (results.protocols.empty()) return "";
+  const std::string protocol = results.protocols.front();
+  const std::optional<RateSpec> rate = ChartRates(results, protocol).headline;
+  std::vector<Choice> choices;  // Each is faster than those before it.
+  for (const std::string& method : methods_best_first(results)) {
+    if (!rate || results.is_control(method)) continue;
+    const Mean mean = mean_of(results.values(method, protocol, rate->name));
+    const auto ms = results.ms_per_scan(method);
+    if (!mean.value || mean.segments < results.sequences.size()) continue;
+    if (choices.empty() || (ms && choices.back().ms && *ms < *choices.back().ms)) {
+      choices.push_back({method, *mean.value, ms});
+    }
+  }
+  if (choices.empty()) return "";
+  std::string html = "<p>Best: <strong>" + choices.front().text(rate->name) + "</strong>." +
+                     html_text(weakness_text(results, choices.front().method, protocol, *rate));
+  for (std::size_t i = 1; i < choices.size(); ++i) {
+    html += (i == 1 ? " Faster: " : ", ") + choices[i].text(rate->name);
+  }
+  return html + (choices.size() > 1 ? ".</p>\n" : "</p>\n");
 }
 
 }  // namespace
@@ -87,12 +169,17 @@ std::string methods_html(const RunResults& results) {
     const std::size_t rate = i < costs ? i : i - 2;
     mark_best(table, i, !is_cost && rate_spec(rates[rate]).higher_is_better);
   }
+  std::string meanings;
+  for (const std::string& protocol : results.protocols) {
+    if (!results.rates_of(protocol).empty()) meanings += meaning_text(results, protocol) + " ";
+  }
+  if (!meanings.empty()) table.notes.push_back(meanings);
   table.notes.push_back(
       rate_units_text(rates) +
       " Bold: best, underlined: second; controls are listed below and not ranked. (4/5): the mean "
       "is over the 4 of 5 sequences that have a value. Click a heading to sort.");
   add_change_notes(results, table);
-  return html_table(table);
+  return choice_html(results) + html_table(table);
 }
 
 std::string accuracy_html(const RunResults& results, const std::vector<OutsideColumn>& published) {
@@ -157,6 +244,22 @@ std::string confidence_html(const RunResults& results) {
   if (chart.empty()) return "";
   std::string html = "<div class=\"charts\">\n" + chart_html(chart) + "</div>\n";
   for (const TextTable& table : reliability_tables(results)) html += html_table(table);
+  return html;
+}
+
+std::string sequences_html(const RunResults& results) {
+  std::string html;
+  for (const std::string& sequence : results.sequences) {
+    std::string charts;
+    for (const std::string& protocol : results.protocols) {
+      charts += chart_html(interval_chart(results, protocol, sequence));
+    }
+    charts += chart_html(parts_chart(results, sequence));
+    if (charts.empty()) continue;
+    html += std::string(html.empty() ? "<details open>" : "<details>") + "<summary>" +
+            html_name(sequence) + "</summary>\n<div class=\"charts\">\n" + charts +
+            "</div></details>\n";
+  }
   return html;
 }
 

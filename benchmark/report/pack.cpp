@@ -7,8 +7,8 @@
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <span>
 
-#include "benchmark/picture/canvas/colours.h"
 #include "benchmark/report/pack.h"
 #include "benchmark/report/scene.h"
 #include "core/error.h"
@@ -21,6 +21,9 @@ using nlohmann::ordered_json;
 
 /// Bits of a point's coordinate.
 constexpr int kBits = 16;
+
+/// The points that a page unpacks, and draws, at once.
+constexpr std::size_t kChunkPoints = 16384;
 
 /// Appends each number as its difference from the number before it (modulo 2^16), with the sign in
 /// the lowest bit: first all low bytes, then all high ones. In this form, numbers that vary little
@@ -40,23 +43,28 @@ void append_differences(const std::vector<std::uint16_t>& values, std::string& b
   }
 }
 
+/// The points in chunks of `kChunkPoints`. In each chunk x, y, z, scans, then the labels' places.
 std::string geometry_bytes(const Scene& scene, const PageFrame& frame) {
   std::string bytes;
-  std::vector<std::uint16_t> values(scene.points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t origin = std::int64_t{frame.origin[axis]} * kStepsPerVoxel;
-    std::transform(scene.points.begin(), scene.points.end(), values.begin(), [&](const auto& p) {
-      return static_cast<std::uint16_t>((p.step[axis] - origin) >> frame.shift);
+  for (std::size_t begin = 0; begin < scene.points.size(); begin += kChunkPoints) {
+    const std::size_t count = std::min(kChunkPoints, scene.points.size() - begin);
+    const std::span points(scene.points.data() + begin, count);
+    std::vector<std::uint16_t> values(count);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int64_t origin = std::int64_t{frame.origin[axis]} * kStepsPerVoxel;
+      std::ranges::transform(points, values.begin(), [&](const ShownPoint& p) {
+        return static_cast<std::uint16_t>((p.step[axis] - origin) >> frame.shift);
+      });
+      append_differences(values, bytes);
+    }
+    std::ranges::transform(points, values.begin(), [](const ShownPoint& point) {
+      return static_cast<std::uint16_t>(point.scan);
     });
     append_differences(values, bytes);
-  }
-  std::transform(scene.points.begin(), scene.points.end(), values.begin(),
-                 [](const ShownPoint& point) { return static_cast<std::uint16_t>(point.scan); });
-  append_differences(values, bytes);
-  for (const ShownPoint& point : scene.points) {
-    const auto label = std::find_if(scene.labels.begin(), scene.labels.end(),
-                                    [&](const auto& known) { return known.id == point.label; });
-    bytes += static_cast<char>(std::min<std::ptrdiff_t>(label - scene.labels.begin(), 255));
+    for (const ShownPoint& point : points) {
+      const auto label = std::ranges::find(scene.labels, point.label, &SceneLabel::id);
+      bytes += static_cast<char>(std::min<std::ptrdiff_t>(label - scene.labels.begin(), 255));
+    }
   }
   return bytes;
 }
@@ -92,15 +100,6 @@ ordered_json trajectory_record(const Scene& scene, const PageFrame& frame) {
   return record;
 }
 
-ordered_json kind_colours() {
-  ordered_json colours = ordered_json::array();
-  for (const Colour& colour : {verdict_colours::kKeptStatic, verdict_colours::kFalsePositive,
-                               verdict_colours::kTruePositive, verdict_colours::kFalseNegative}) {
-    colours.push_back(colour_text(colour));
-  }
-  return colours;
-}
-
 }  // namespace
 
 std::string deflated(std::string_view bytes) {
@@ -115,19 +114,32 @@ std::string deflated(std::string_view bytes) {
   return packed;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+std::string printable(std::string_view bytes) {
+  constexpr std::uint32_t kDigits = 91;
   std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(3, bytes.size()))) {
-    std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      group = group << 8U | (i < bytes.size() ? static_cast<std::uint8_t>(bytes[i]) : 0U);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      text += i <= bytes.size() ? kDigits[group >> (18U - 6U * i) & 63U] : '=';
-    }
+  const auto put = [&](std::uint32_t digit) {
+    const char letter = static_cast<char>('#' + digit);
+    text += letter == '<' ? '!' : letter;
+  };
+  const auto put_pair = [&](std::uint32_t value) {
+    put(value % kDigits);
+    put(value / kDigits);
+  };
+  text.reserve(bytes.size() * 16 / 13 + 2);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char byte : bytes) {
+    bits |= static_cast<std::uint32_t>(static_cast<std::uint8_t>(byte)) << count;
+    count += 8;
+    if (count < 13) continue;
+    put_pair(bits & 0x1FFFU);
+    bits >>= 13;
+    count -= 13;
+  }
+  if (count > 6) {
+    put_pair(bits);
+  } else if (count > 0) {
+    put(bits);
   }
   return text;
 }
@@ -139,12 +151,12 @@ std::string script_json(const ordered_json& json) {
 }
 
 std::string page_data(const std::vector<std::string>& heads) {
-  return fmt::format("{{\"colours\":{},\"scenes\":[{}]}}", script_json(kind_colours()),
-                     fmt::join(heads, ","));
+  return fmt::format("{{\"scenes\":[{}]}}", fmt::join(heads, ","));
 }
 
-PageFrame page_frame(const std::vector<ShownPoint>& points) {
+PageFrame page_frame(const std::vector<ShownPoint>& points, int shift) {
   PageFrame frame;
+  frame.shift = shift;
   for (;; ++frame.shift) {
     // The corner is a whole number of units, so that units and cells of several units have common
     // borders.
@@ -164,12 +176,13 @@ PageFrame page_frame(const std::vector<ShownPoint>& points) {
 
 PackedScene pack_scene(const Scene& scene, std::size_t number) {
   ordered_json head;
-  const PageFrame frame = page_frame(scene.points);
+  const PageFrame frame = page_frame(scene.points, scene.shift);
   const std::string prefix = "scene-" + std::to_string(number);
   head["sequence"] = scene.sequence;
   head["stream"] = prefix;
   if (scene.is_unlabelled) head["unlabelled"] = true;
   head["points"] = scene.points.size();
+  head["chunk"] = kChunkPoints;
   head["points_in_range"] = scene.points_in_range;
   head["voxel"] = kPageVoxel;
   head["steps_per_voxel"] = kStepsPerVoxel;
@@ -191,20 +204,20 @@ PackedScene pack_scene(const Scene& scene, std::size_t number) {
   head["trajectory"] = trajectory_record(scene, frame);
   head["cells"] = ordered_json::array();
   PackedScene packed;
-  packed.streams.emplace_back(prefix, base64(deflated(geometry_bytes(scene, frame))));
+  packed.streams.emplace_back(prefix, printable(deflated(geometry_bytes(scene, frame))));
   for (std::size_t i = 0; i < scene.cells.size(); ++i) {
     head["cells"].push_back(cell_record(scene.cells[i], scene.counts[i]));
   }
   if (scene.is_unlabelled) {
     const std::string review = script_json(to_json(scene.review));
-    packed.streams.emplace_back(prefix + "-review", base64(deflated(review)));
+    packed.streams.emplace_back(prefix + "-review", printable(deflated(review)));
     head["confidences"] = scene.confidences;
   }
   for (std::size_t i = 0; i < scene.verdicts.size(); ++i) {
     const std::vector<std::uint8_t>& bytes = scene.verdicts[i];
     packed.streams.emplace_back(
         prefix + "-" + std::to_string(i),
-        base64(deflated({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
+        printable(deflated({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
   }
   packed.head = script_json(head);
   return packed;

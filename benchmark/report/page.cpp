@@ -72,7 +72,9 @@ void add_scene(const PageRequest& request, const std::string& name, std::size_t 
       request.run->open(name, {request.threads, request.progress, request.cancel});
   std::vector<SceneCell> cells = scene_cells(*request.run, sequence, points.lost);
   if (cells.empty()) return;
-  const Scene scene = build_scene(sequence, std::move(cells), limit, request.progress);
+  Scene scene = build_scene(sequence, std::move(cells), limit, request.progress);
+  constexpr std::size_t kManyPoints = 1000000;
+  if (request.points > kManyPoints) ++scene.shift;  // Larger units take less room.
   PackedScene packed = pack_scene(scene, points.scenes.size());
   points.scenes.push_back(std::move(packed.head));
   for (auto& stream : packed.streams) points.streams.push_back(std::move(stream));
@@ -102,6 +104,13 @@ Points collect_points(const PageRequest& request) {
   return points;
 }
 
+/// A view's file with the controls that all views have.
+std::string view_html(const char* name) {
+  constexpr std::string_view kPlace = "<!-- scans.html -->";
+  std::string html(page_file(name));
+  return html.replace(html.find(kPlace), kPlace.size(), page_file("scans.html"));
+}
+
 std::string points_html(const PageRequest& request, const Points& points) {
   std::string html;
   for (const std::string& warning : points.lost) {
@@ -122,7 +131,7 @@ std::string points_html(const PageRequest& request, const Points& points) {
            "<p>No points to show: no removals were stored. Start the same command again with "
            "<code>--keep-removals</code>, then make the report again.</p>\n";
   }
-  return html + std::string(page_file("view.html")) +
+  return html + view_html("view.html") +
          "<noscript><p>The 3-D view needs JavaScript.</p></noscript>\n";
 }
 
@@ -134,6 +143,7 @@ std::vector<PageSection> sections_of(const PageRequest& request, const Points& p
       {"points", "Points", points_html(request, points)},
       {"failures", "Failed cells", failures_html(results)},
       {"charts", "Charts", charts_html(results)},
+      {"sequences", "Sequences", sequences_html(results)},
       {"losses", "Losses", losses_html(results)},
       {"confidence", "Confidence", confidence_html(results)},
       {"accuracy", "Accuracy", accuracy_html(results, request.published)},
@@ -230,7 +240,7 @@ std::string map_page(const Scene& scene, const std::string& title,
   return head_html(title) +
          "<body>\n<a class=\"skip\" href=\"#main\">To the content</a>\n<header><h1>" +
          html_name(title) + "</h1>\n<button type=\"button\" id=\"theme\">Dark</button></header>\n" +
-         "<main id=\"main\">\n" + std::string(page_file("review.html")) +
+         "<main id=\"main\">\n" + view_html("review.html") +
          html_section({"facts", "What was done", html_list(lines)}) + "</main>\n" + kFooter +
          scripts_html("review.js", {packed.head}, packed.streams) + "</body>\n</html>\n";
 }

@@ -296,7 +296,7 @@ Scene MapSceneBuilder::finish() {
   // A page's coordinates must tell cells apart.
   std::vector<ShownPoint> all = removed_.points();
   all.insert(all.end(), kept_.points().begin(), kept_.points().end());
-  const int unit = 1 << page_frame(all).shift;
+  const int unit = 1 << page_frame(all, scene_.shift).shift;
   removed_.align(unit);
   kept_.align(unit);
   scene_.review.removed_cell = scene_.error_cell = removed_.cell();

@@ -100,6 +100,8 @@ struct Scene {
   /// cells of removed and of kept points.
   int error_cell = 0, other_cell = 0;
   std::vector<ShownPoint> points;  ///< In the order of a Morton curve.
+  /// Coordinates in a page are rounded down to units of at least 2^shift steps, here 2.5 cm.
+  int shift = 1;
   /// For each cell a byte for each point. Bit 0 is set if the point was removed; the bits above it
   /// hold the reason's code plus 1, or 0 if there is no reason.
   /// Of a cleaned map, the second byte is the confidence in steps (`kConfidenceSteps`).
@@ -155,7 +157,8 @@ struct PageFrame {
   MapSteps origin{};  ///< Voxels.
   int shift = 0;      ///< 2^shift steps are one unit of a coordinate.
 };
-PageFrame page_frame(const std::vector<ShownPoint>& points);
+/// @param shift at least, see `Scene`
+PageFrame page_frame(const std::vector<ShownPoint>& points, int shift);
 
 /// @param number of the scene in the page, for the ids of its streams
 PackedScene pack_scene(const Scene& scene, std::size_t number);

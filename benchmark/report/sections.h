@@ -23,6 +23,8 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
 std::string cells_html(const RunResults& results);
 /// The charts: PR against RR, accuracy against time, time of stages.
 std::string charts_html(const RunResults& results);
+/// The charts of each sequence: rates with their intervals, shares of points by range, time, class.
+std::string sequences_html(const RunResults& results);
 /// The methods' confidences against the true shares, as a chart and tables.
 std::string confidence_html(const RunResults& results);
 /// The shares of moving points that stay and of static points that are removed, by range, height

@@ -90,6 +90,16 @@ const std::vector<Band>& bands() {
   return all;
 }
 
+/// Tenths of the scans.
+std::vector<Band> time_bands() {
+  std::vector<Band> list;
+  for (std::size_t i = 0; i < kTimeBands; ++i) {
+    list.push_back(
+        {"time " + time_band_name(i), [i](const ClassTally& tally) { return tally.by_time[i]; }});
+  }
+  return list;
+}
+
 Column class_column(std::uint16_t id, const std::string& where, bool moving, const Part& part) {
   const std::string reason = "no point of this class is there";
   const auto share = [id, moving, part](const RemovalTally& tally) {
@@ -105,10 +115,10 @@ Column class_column(std::uint16_t id, const std::string& where, bool moving, con
 std::vector<Column> make_general_columns() {
   std::vector<Column> columns = {precision(), recall(), residue(), rejection("", whole_class),
                                  preservation("", whole_class)};
-  for (const Band& band : bands()) columns.push_back(rejection(" [" + band.name + "]", band.part));
-  for (const Band& band : bands()) {
-    columns.push_back(preservation(" [" + band.name + "]", band.part));
-  }
+  std::vector<Band> all = bands();
+  for (Band& band : time_bands()) all.push_back(std::move(band));
+  for (const Band& band : all) columns.push_back(rejection(" [" + band.name + "]", band.part));
+  for (const Band& band : all) columns.push_back(preservation(" [" + band.name + "]", band.part));
   return columns;
 }
 
@@ -171,7 +181,7 @@ ColumnName parse_column_name(const std::string& name) {
   ColumnName parts{name.substr(0, open)};
   if (open == std::string::npos) return parts;
   parts.group = name.substr(open + 2, name.size() - open - 3);
-  for (const std::string axis : {"range", "height"}) {
+  for (const std::string axis : {"range", "height", "time"}) {
     // Alone, or behind the class; a class may have any name.
     const std::size_t comma = parts.group.rfind(", " + axis + " ");
     const bool alone = parts.group.starts_with(axis + " ");

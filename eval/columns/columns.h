@@ -26,7 +26,7 @@ struct Share {
 struct ColumnName {
   std::string kind;        ///< "rejection".
   std::string group = {};  ///< Class of points, "moving-car"; empty: all points.
-  std::string axis = {};   ///< "range" or "height"; empty: the column is of no band.
+  std::string axis = {};   ///< "range", "height" or "time"; empty: the column is of no band.
   std::string band = {};   ///< "0-10 m".
 
   [[nodiscard]] std::string text() const;
@@ -52,8 +52,8 @@ inline constexpr const char* kColumnsVersion = "1";
 /// and
 ///   `residue`, the share of moving points among the kept points;
 /// - `rejection`, the share of moving points that are removed (this is the recall), and
-///   `preservation`, the share of static points that are kept: in total, by range band and by
-///   height band, "rejection [range 0-10 m]".
+///   `preservation`, the share of static points that are kept: in total, by range, by height and by
+///   tenths of the scans, "rejection [range 0-10 m]", "rejection [time 0-10 %]".
 const std::vector<Column>& general_columns();
 
 /// The columns of the classes that occur in `tally`: `rejection` of moving classes and

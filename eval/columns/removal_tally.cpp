@@ -24,8 +24,9 @@ std::string band_name(const std::array<double, Bands>& edges, std::size_t band) 
   return number_text(edges[band]) + "-" + number_text(edges[band + 1]) + " m";
 }
 
-void count(const Eigen::Vector3d& point, bool removed, ClassTally& tally) {
+void count(const Eigen::Vector3d& point, std::size_t time, bool removed, ClassTally& tally) {
   const PointTally one{1, removed ? 1 : 0};
+  tally.by_time[time] += one;
   tally.by_range[band_of(kRangeEdges, point.norm())] += one;
   tally.by_height[band_of(kHeightEdges, point.z() + kHeightOffset)] += one;
 }
@@ -33,6 +34,7 @@ void count(const Eigen::Vector3d& point, bool removed, ClassTally& tally) {
 RemovalTally tally_scan(const EvaluationInput& input, const LabelClasses& classes,
                         const CheckedScan& loaded) {
   constexpr double kCrop = kMinimumHorizontalRange * kMinimumHorizontalRange;
+  const std::size_t time = loaded.scan.index * kTimeBands / input.scans->size();
   RemovalTally tally;
   ClassTally* of_class = nullptr;  // Of the last point counted: neighbours often share it.
   std::uint16_t id = 0;
@@ -50,7 +52,7 @@ RemovalTally tally_scan(const EvaluationInput& input, const LabelClasses& classe
       of_class = &tally.classes[id];
       of_class->moving = label_class == LabelClass::kMoving;
     }
-    count(point, loaded.removed(i), *of_class);
+    count(point, time, loaded.removed(i), *of_class);
     if (instance_id(loaded.labels[i]) == 0) continue;
     if (of_object == nullptr || object != loaded.labels[i]) {
       object = loaded.labels[i];
@@ -67,6 +69,7 @@ void add(const RemovalTally& scan, RemovalTally& all) {
     to.moving = from.moving;
     for (std::size_t i = 0; i < kRangeBands; ++i) to.by_range[i] += from.by_range[i];
     for (std::size_t i = 0; i < kHeightBands; ++i) to.by_height[i] += from.by_height[i];
+    for (std::size_t i = 0; i < kTimeBands; ++i) to.by_time[i] += from.by_time[i];
   }
   for (const auto& [word, points] : scan.objects) all.objects[word] += points;
 }
@@ -91,6 +94,11 @@ std::string range_band_name(std::size_t band) {
 
 std::string height_band_name(std::size_t band) {
   return band_name(kHeightEdges, band);
+}
+
+std::string time_band_name(std::size_t band) {
+  constexpr std::size_t kPercent = 100 / kTimeBands;
+  return std::to_string(band * kPercent) + "-" + std::to_string((band + 1) * kPercent) + " %";
 }
 
 RemovalCount::RemovalCount(const EvaluationInput& input)

@@ -31,6 +31,8 @@ constexpr std::uint16_t instance_id(std::uint32_t word) {
 
 inline constexpr std::size_t kRangeBands = 6;
 inline constexpr std::size_t kHeightBands = 5;
+/// Bands of time are tenths of a sequence's scans.
+inline constexpr std::size_t kTimeBands = 10;
 
 /// Lower edges of the bands, in metres of 3-D distance from the sensor.
 inline constexpr std::array<double, kRangeBands> kRangeEdges = {0, 10, 20, 30, 40, 50};
@@ -42,15 +44,17 @@ inline constexpr double kHeightOffset = 1.73;
 /// The ERASOR protocol's crop: points nearer to the sensor's z axis are not counted.
 inline constexpr double kMinimumHorizontalRange = 2.7;
 
-/// "0-10 m", "50 m and more", "below 0.3 m".
+/// "0-10 m", "50 m and more", "below 0.3 m", "0-10 %".
 std::string range_band_name(std::size_t band);
 std::string height_band_name(std::size_t band);
+std::string time_band_name(std::size_t band);
 
-/// A semantic class of the truth. Its points are counted twice: by range, and by height.
+/// A semantic class of the truth. Its points are counted three times: by range, height and time.
 struct ClassTally {
   bool moving = false;
   std::array<PointTally, kRangeBands> by_range;
   std::array<PointTally, kHeightBands> by_height;
+  std::array<PointTally, kTimeBands> by_time;
 
   [[nodiscard]] PointTally all() const;
 };

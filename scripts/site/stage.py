@@ -212,13 +212,27 @@ def for_mkdocs(text):
     return "\n".join(with_fences(lines))
 
 
+COMMANDS_OF_HOME = """\
+    raymoval clean my_scans -o static.pcd   # your map without moving objects
+    scripts/reproduce.sh --quick            # compares 7 methods: a table and a page"""
+BEFORE_AFTER = "![A street from above: the trails of moving cars, then the same with the trails removed](results/pictures/before_after.png)"
+
+
 def home(text):
-    """The README as the first page of the site: buttons below its promise, and the whole width."""
+    """The README as the first page of the site. Its first screen is its promise, two commands, a picture of before and after,
+    and the first methods of its table."""
+    promise, _, rest = text.partition("\n![")
+    table = re.search(r"^\| method \|.*?(?=\n\n)", text, re.M | re.S)[0].split("\n")
     buttons = " ".join(f"[{title}]({page}){{ .md-button{' .md-button--primary' if first else ''} }}" for first, title, page in (
         (True, "Get started", "docs/getting-started.md"), (False, "Clean your map", "docs/clean.md"),
         (False, "Compare methods", "docs/compare-methods.md"), (False, "Add a method", "docs/your-method.md")))
-    before, picture, after = text.partition("\n![")
-    return f"---\ntitle: raymoval\nhide: [navigation, toc]\n---\n{before}\n{buttons}\n{picture}{after}"
+    columns = (f"{promise}\n\n{COMMANDS_OF_HOME}\n\n{buttons}",
+               f"{BEFORE_AFTER}\n\nLeft: a simulated street with the trails of moving cars. Right: after `raymoval_plus`.")
+    start = "\n".join(f"<div markdown>\n{column}\n</div>" for column in columns)
+    first = "\n".join(table[:7])
+    return (f"---\ntitle: raymoval\nhide: [navigation, toc]\n---\n<div class=\"start\" markdown>\n{start}\n</div>\n\n{first}\n\n"
+            "On KITTI raw drive 0005, where raymoval_plus was developed; the last two columns are held-out scenes. "
+            f"[All methods, and what the columns mean](#compare-methods).\n\n![{rest}")
 
 
 def put(target, text):
@@ -230,6 +244,8 @@ def stage_pages(pages, folder):
     """Writes `pages` of the repository below `folder`, and copies the files that they link to."""
     for page in pages:
         text = (HOUSE / page).read_text(encoding="utf-8")
+        if page == "README.md":
+            text = home(text)
         for match in LINK.finditer(text):
             link = (match[1] or match[2]).split("#")[0]
             source = (HOUSE / page).parent / link
@@ -242,7 +258,7 @@ def stage_pages(pages, folder):
         parameters = f"{PARAMETERS}{pathlib.PurePath(page).parent.name}.md"
         if pathlib.PurePath(page).match("methods/*/README.md"):
             text += f"\n[All parameters and variants](../../{parameters}), as the program describes them.\n"
-        put(folder / page, home(text) if page == "README.md" else text)
+        put(folder / page, text)
 
 
 def settings(nav, out):

@@ -49,6 +49,30 @@ TEST_CASE("a height is that above a road 1.73 m below the sensor", "[columns]") 
   }
 }
 
+TEST_CASE("a band of time is a tenth of the scans", "[columns]") {
+  // Of four scans, the numbers 0, 1, 2 and 3 are in the tenths 0, 2, 5 and 7.
+  std::vector<LabelledScan> scans(4);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    for (std::size_t point = 0; point <= i; ++point) scans[i].add(5.0f, 0.0f, 0.0f, 40, point == 1);
+  }
+  const MemorySequence sequence(scans);
+  const RemovalTally tally = tally_removals(sequence.input(), sequence.masks());
+  const auto& bands = tally.classes.at(40).by_time;
+  const std::vector<std::int64_t> points = {1, 0, 2, 0, 0, 3, 0, 4, 0, 0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CAPTURE(i);
+    CHECK(bands[i].points == points[i]);
+    CHECK(bands[i].removed == (points[i] > 1 ? 1 : 0));
+  }
+  const auto values = column_values(tally);
+  const auto third = std::ranges::find(values, "preservation [time 20-30 %]", &ColumnValue::name);
+  REQUIRE(third != values.end());
+  CHECK(third->share.part == 1);
+  CHECK(third->share.whole == 2);
+  CHECK(parse_column_name(third->name).axis == "time");
+  CHECK(parse_column_name(third->name).band == "20-30 %");
+}
+
 TEST_CASE("points nearer than 2.7 m to the sensor's axis are in no column", "[columns]") {
   LabelledScan scan;
   scan.add(2.69f, 0.0f, 9.0f, 40);
@@ -102,9 +126,9 @@ TEST_CASE("every column of a sequence has one value and says why it has none", "
   scan.add(15.0f, 0.0f, 0.0f, 252, true);
   const MemorySequence sequence({scan});
   const auto values = column_values(tally_removals(sequence.input(), sequence.masks()));
-  // 5 in general and 11 bands of rejection and of preservation; each class has itself, a range
+  // 5 in general and 21 bands of rejection and of preservation; each class has itself, a range
   // band and a height band.
-  CHECK(values.size() == 5 + 2 * 11 + 2 * 3);
+  CHECK(values.size() == 5 + 2 * 21 + 2 * 3);
   std::set<std::string> names;
   for (const ColumnValue& value : values) {
     names.insert(value.name);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A second opinion on the columns: shares of points by class, range and height."""
+"""A second opinion on the columns: shares of points by class, range, height and time."""
 from collections import defaultdict
 
 from dynamicmap import is_present
@@ -60,6 +60,7 @@ def values(sequence, names=None, cloud=None):
     buckets = None if cloud is None else Buckets(cloud, NEAR)
     columns = defaultdict(lambda: [0, 0])
     objects = defaultdict(list)
+    tenths = {id(scan): 10 * i // len(sequence.scans) for i, scan in enumerate(sequence.scans)}
 
     def count(name, hit):
         columns[name][0] += hit
@@ -87,8 +88,10 @@ def values(sequence, names=None, cloud=None):
         of_range = "range " + bin_of(distance, RANGES)
         of_height = "height " + bin_of(point[2] + SENSOR_HEIGHT, HEIGHTS)
         of_class = names.get(label, f"label-{label}")
+        tenth = tenths[id(scan)]
+        of_time = f"time {10 * tenth}-{10 * tenth + 10} %"
         count(name, hit)
-        for what in (of_range, of_height, of_class):
+        for what in (of_range, of_height, of_time, of_class):
             count(f"{name} [{what}]", hit)
         for what in (of_range, of_height):
             count(f"{name} [{of_class}, {what}]", hit)

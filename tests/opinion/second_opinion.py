@@ -100,7 +100,7 @@ def differences(said, sequence, settings, classes=True, names=None,
     for name in sorted(mine.keys() | theirs.keys()):
         if not classes and name.split()[0] in ("parked", "trails"):
             continue
-        if not classes and "[" in name and name.split("[")[1].split()[0] not in ("range", "height"):
+        if not classes and "[" in name and name.split("[")[1].split()[0] not in ("range", "height", "time"):
             continue
         compared += 1
         if mine.get(name, (0, 0)) != theirs.get(name, (0, 0)):

@@ -94,6 +94,14 @@ def check_accessible(browser):
         " part.getAttribute('aria-label'))"))
 
 
+def check_sequences(browser):
+    """Each sequence has its charts: bars of intervals, lines over range and time, rows of classes."""
+    text = browser.run("document.getElementById('sequences').textContent")
+    for word in ("with 95 % intervals", "range, m", "time, % of the scans", "building"):
+        check(f"a sequence shows '{word}'", word in text, text[:300])
+    check("methods have bars", browser.run("document.querySelectorAll('#sequences .bar').length") > 0)
+
+
 def check_looks(browser):
     """Contrast, and what a phone shows of the first table without scrolling sideways."""
     check_contrast(browser)
@@ -155,6 +163,20 @@ def check_points(browser):
     browser.run(f"({choose})('right', 'nothing')")
     browser.wait(f"{view}.cells.length === 1")
     browser.run(f"{view}.lookAtAll()")
+
+
+def check_grey(browser):
+    """A grey printer tells the kinds of points apart: their lightness (CIE L*) differs by 10 or more."""
+    for dark in (False, True):
+        browser.set_dark(dark)
+        light = sorted(browser.run("""['--kept-low', '--kept-high', '--kind-1', '--kind-2', '--kind-3'].map((name) => {
+            const part = (value) => value <= 10.3 ? value / 3294.6 : ((value / 255 + 0.055) / 1.055) ** 2.4;
+            const [r, g, b] = colourOf(name).map(part);
+            return 116 * Math.cbrt(0.2126 * r + 0.7152 * g + 0.0722 * b) - 16;
+        })"""))
+        gaps = [b - a for a, b in zip(light, light[1:])]
+        check(f"kinds differ in grey ({'dark' if dark else 'light'})", min(gaps) >= 10, light)
+    browser.set_dark(False)
 
 
 def check_scans(browser):
@@ -311,10 +333,12 @@ def main():
             check_tables(browser)
             check_theme(browser)
             check_accessible(browser)
+            check_sequences(browser)
             open_view(browser)
             check_looks(browser)
             check_counts(browser, None)
             check_points(browser)
+            check_grey(browser)
             check_scans(browser)
             check_click(browser)
             check_pointers(browser)

@@ -151,6 +151,32 @@ def check_decisions(browser, count):
     browser.press("Escape")
 
 
+def check_keyboard(browser):
+    """A box and a lasso without a pointer select what the same corners select with one."""
+    browser.run("document.getElementById('whole').click(); document.getElementById('above').click()")
+    for mode, corners in (("box", [(0, 0), (80, 40)]), ("lasso", [(0, 0), (80, 0), (80, 80)])):
+        browser.press(mode[0])
+        check(f"{mode[0].upper()} chooses the {mode}", browser.run("document.querySelector('input[name=drag]:checked').value") == mode)
+        at = (0, 0)
+        for corner in corners:
+            for axis, keys in ((0, "ArrowRight"), (1, "ArrowDown")):
+                for _ in range((corner[axis] - at[axis]) // 8):
+                    browser.press(keys)
+            at = corner
+            browser.press(" ") if corner != corners[-1] else browser.press("Enter")
+        found = browser.run("raymovalReview.selected.points.join()")
+        check(f"the keyboard's {mode} selects points", found != "")
+        outline = [(0, 0), (80, 0), (80, 40), (0, 40)] if mode == "box" else corners
+        browser.run("(({width, height}) => raymovalReview.selectWithin(%s.map(([x, y]) => [width / 2 + x, height / 2 + y])))"
+                    "(raymovalReview.stage)" % json.dumps(outline))
+        check(f"those within the {mode}", browser.run("raymovalReview.selected.points.join()") == found)
+    browser.press(" ")
+    check("a screen reader hears of a corner", "1 corners set" in browser.run("document.getElementById('selection').textContent"))
+    browser.press("Escape")
+    browser.press("t")
+    check("T ends it", browser.run("document.getElementById('cross').getAttribute('visibility')") == "hidden")
+
+
 def check_caution(browser, raymoval):
     """The page and the program agree on what a caution removes."""
     for caution in (0.0, 0.9, 1.0):
@@ -224,6 +250,7 @@ def main():
             check("the page opens", browser.run("window.raymovalViewError === undefined"),
                   browser.run("String(window.raymovalViewError)"))
             check_decisions(browser, check_objects(browser))
+            check_keyboard(browser)
             check_caution(browser, raymoval)
             check_looks(browser)
             browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)

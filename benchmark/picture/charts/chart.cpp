@@ -30,6 +30,7 @@ constexpr const char* kStyle =
 .raymoval-chart .iso{stroke:#595959;stroke:var(--chart-soft);stroke-dasharray:2 3;fill:none}
 .raymoval-chart .front{stroke:#595959;stroke:var(--chart-soft);stroke-width:1.5;fill:none}
 .raymoval-chart .joined{stroke-width:1.5;fill:none}
+.raymoval-chart .bar{stroke-width:7;stroke-opacity:.4;fill:none}
 .raymoval-chart .mark{stroke:#ffffff;stroke:var(--chart-ground);stroke-width:1}
 )";
 

@@ -43,7 +43,7 @@ class Chart {
   void text(double x, double y, const std::string& content, const std::string& look = "ink");
   /// Writes text upwards, centred on a point.
   void text_upwards(double x, double y, const std::string& content);
-  /// @param look class "axis", "grid", "iso" or "front", or "joined" with a colour
+  /// @param look class "axis", "grid", "iso" or "front"; "joined" or "bar" with a colour
   void line(const std::vector<ChartPoint>& points, const std::string& look,
             std::optional<Colour> colour = {});
   /// Draws a marker of about 10 pixels. @param hint is shown when a pointer rests on it

@@ -36,4 +36,15 @@ Chart sweep_chart(const RunResults& results, const std::string& protocol);
 /// @param protocol its name in the run
 Chart accuracy_time_chart(const RunResults& results, const std::string& protocol);
 
+/// Shows the rates of each method on a sequence, the best method first: a marker at each rate, a
+/// bar over its interval. The chart is empty if no method has an interval of the headline rate.
+/// @param protocol its name in the run
+Chart interval_chart(const RunResults& results, const std::string& protocol,
+                     const std::string& sequence);
+
+/// Shows the share of moving points that are removed and that of static points that are kept on a
+/// sequence: lines over range and over time, a row for each class. Parts with fewer than
+/// `kNamedClassPoints` points are left out. The chart is empty if no method has columns.
+Chart parts_chart(const RunResults& results, const std::string& sequence);
+
 }  // namespace raymoval

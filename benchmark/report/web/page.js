@@ -80,11 +80,20 @@
   document.querySelectorAll('table.sortable').forEach(makeSortable);
   setUpTheme();
 
-  // On paper everything is open.
-  let opened = [];
+  // On paper everything is open and light.
+  let opened = [], theme;
+  const change = (next) => {
+    [theme, document.documentElement.dataset.theme] = [document.documentElement.dataset.theme, next];
+    if (next === undefined) delete document.documentElement.dataset.theme;
+    document.dispatchEvent(new Event('raymoval-theme'));
+  };
   addEventListener('beforeprint', () => {
+    change('light');
     opened = [...document.querySelectorAll('details:not([open])')];
     opened.forEach((part) => { part.open = true; });
   });
-  addEventListener('afterprint', () => opened.forEach((part) => { part.open = false; }));
+  addEventListener('afterprint', () => {
+    change(theme);
+    opened.forEach((part) => { part.open = false; });
+  });
 })();

@@ -3,6 +3,8 @@
 
 const KEPT_STATIC = 0, FALSE_POSITIVE = 1, TRUE_POSITIVE = 2, FALSE_NEGATIVE = 3, NOT_EVALUATED = 4;
 const KIND_NAMES = ['static, kept', 'static, lost', 'moving, removed', 'moving, kept', 'not evaluated'];
+/** Of page.css. In shades of grey they differ, too. */
+const KIND_COLOURS = ['--kept-high', '--kind-1', '--kind-2', '--kind-3', '--kind-4'];
 const KIND_WORDS = ['kept, rightly (static)', 'removed, wrongly (static)', 'removed, rightly (moving)',
                     'kept, wrongly (moving)', null];
 
@@ -36,7 +38,6 @@ async function readCell(data, number) {
 class ReportView {
   constructor(content) {
     this.scenes = content.scenes.map((head) => new SceneData(head));
-    this.kindColours = [...content.colours, '#a596bd'];
     this.visible = [true, true, true, true, false];
     this.cells = [];
     this.stage = new Stage(element('canvas'));
@@ -84,20 +85,19 @@ class ReportView {
         this.visible[kind] = box.checked;
         this.paint();
       });
-      return make('label', {for: `kind-${kind}`}, box, make('span', {class: 'swatch', style: `--swatch:${this.kindColours[kind]}`}),
+      return make('label', {for: `kind-${kind}`}, box, make('span', {class: 'swatch', style: `--swatch:var(${KIND_COLOURS[kind]})`}),
                   name, make('span', {class: 'count', id: `count-${kind}`}));
     }));
   }
 
   async open() {
     const {data} = this, {head} = data;
-    element('view-status').textContent = 'Unpacking points ...';
-    await data.load();
+    await this.stage.unpack(data, this.sideways());
+    if (data !== this.data) return;
     const names = head.cells.map((cell, i) => [i, cell.name]);
     this.choose('left', names);
     element('left').value = Math.max(0, head.cells.findIndex((cell) => !cell.control));
     this.choose('right', [['', 'nothing'], ...names]);
-    this.stage.setPoints(data);
     await this.openCells();
     this.bar.open(head);
     this.tell(-1);
@@ -131,18 +131,19 @@ class ReportView {
   paint() {
     if (this.cells.length === 0) return;
     const {data, visible} = this, by = element('colour').value;
-    const kinds = [keptShades(), ...this.kindColours.slice(1).map((hex) => shades(rgbOf(hex), rgbOf(hex)))];
-    const heights = HEIGHTS.slice(1).flatMap((high, i) => shades(rgbOf(HEIGHTS[i]), rgbOf(high)).filter((_, k) => k % 9 === 0));
+    const looks = [1, 2, 2, 2, 1], words = (colours, kind) => Uint32Array.from(colours, (colour) => painted(colour, looks[kind]));
+    const heights = shades([0, 0, 0], [9, 0, 0]).map(([place]) => {
+      const low = Math.min(8, Math.floor(place)), [a, b] = [low, low + 1].map((i) => rgbOf(HEIGHTS[i]));
+      return a.map((value, axis) => value + (b[axis] - value) * (place - low));
+    });
     const labels = data.head.labels.map((label, i) => rgbOf(labelColour(label.id, i)));
     const reasons = Array.from({length: 129}, (_, i) => rgbOf(reasonColour(i - 1)));
-    this.stage.setPaints(this.cells.map(({bytes, kinds: of}) => {
-      const paint = new Uint8Array(4 * data.count);
+    const tables = looks.map((_, kind) => words(by === 'verdict' ? (kind === KEPT_STATIC ? keptShades() : Array(256).fill(colourOf(KIND_COLOURS[kind])))
+        : by === 'height' ? heights : by === 'label' ? labels : reasons, kind));
+    this.stage.setPaints(this.cells.map(({bytes, kinds}) => {
+      const paint = new Uint32Array(data.count), isByHeight = by === 'verdict' || by === 'height';
       for (let i = 0; i < data.count; ++i) {
-        if (!visible[of[i]]) continue;
-        const height = data.height(i);
-        paint.set(by === 'verdict' ? kinds[of[i]][height] : by === 'height' ? heights[height]
-            : by === 'label' ? labels[data.labels[i]] : reasons[bytes[i] >> 1], 4 * i);
-        paint[4 * i + 3] = of[i] === KEPT_STATIC || of[i] === NOT_EVALUATED ? 1 : 2;
+        if (visible[kinds[i]]) paint[i] = tables[kinds[i]][isByHeight ? data.height(i) : by === 'label' ? data.labels[i] : bytes[i] >> 1];
       }
       return paint;
     }));

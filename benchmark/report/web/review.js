@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The review of a cleaned map: removed points as objects, which a reader keeps or removes.
 
-const LEGEND = [['kept', '#8a8d92'], ['removed', '#009e73'], ['kept by hand', '#0072b2'], ['removed by hand', '#d55e00']];
+const LEGEND = [['kept', '--kept-high'], ['removed', '--kind-2'], ['kept by hand', '--kind-1'], ['removed by hand', '--kind-3']];  // Of page.css.
 const SMALLEST = 8;  // Shown points of an object; smaller ones are one object, "scattered points".
 
 /** Number of the connected group of each removed point: neighbours in space within a scan, and in the scans after it. */
@@ -74,6 +74,11 @@ function describe(data, points, confidence, number, isScattered) {
   return {number, points, isScattered, sizes, scans, confidence: mean, state: ''};
 }
 
+function setCurrent(item, is) {
+  if (is) item.setAttribute('aria-current', 'true');
+  else item.removeAttribute('aria-current');
+}
+
 class Review {
   constructor(content) {
     this.data = new SceneData(content.scenes[0]);
@@ -94,13 +99,12 @@ class Review {
 
   async load() {
     const {data, stage} = this;
-    await data.load();
+    await stage.unpack(data, 2.2);
     const [removed, confidence] = [await data.bytes(0), await data.bytes(1)];
     Object.assign(this, {base: removed, now: removed.slice(), confidence, marked: new Uint8Array(data.count)});
     this.objects = objectsOf(data, removed, confidence);
     this.objectOf = new Int32Array(data.count).fill(-1);
     this.objects.forEach(({points}, place) => points.forEach((i) => { this.objectOf[i] = place; }));
-    stage.setPoints(data);
     this.bar.open(data.head);
     this.list();
     this.paint();
@@ -115,7 +119,7 @@ class Review {
 
   setUpLegend() {
     element('kinds').append(...LEGEND.map(([name, colour], kind) => {
-      const swatch = make('span', {class: 'swatch', style: `--swatch:${colour}`});
+      const swatch = make('span', {class: 'swatch', style: `--swatch:var(${colour})`});
       if (kind > 1) return make('label', {}, swatch, name);
       const box = make('input', {type: 'checkbox', id: `kind-${kind}`, checked: ''});
       box.addEventListener('change', () => {
@@ -134,7 +138,10 @@ class Review {
     element('order').addEventListener('change', () => this.list());
     element('caution').addEventListener('input', () => this.setCaution(Number(element('caution').value)));
     const keys = {k: actions.keep, r: actions.remove, Delete: actions.remove, u: actions.undo, n: () => this.next(),
-                  Escape: () => this.select([], null), Home: actions.whole};
+                  Escape: () => { this.setPen(this.pen && {...this.pen, corners: []}); this.select([], null); }, Home: actions.whole};
+    for (const mode of ['turn', 'box', 'lasso']) {
+      keys[mode[0]] = () => { this.setDrag(mode); this.stage.canvas.focus(); };
+    }
     document.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey || event.target.matches('input[type=range], select')) return;
       const action = keys[event.key] ?? keys[event.key.toLowerCase()];
@@ -145,21 +152,76 @@ class Review {
   }
 
   setUpDrags() {
-    const chosen = () => document.querySelector('input[name=drag]:checked').value;
     let path = [];
     this.stage.onDrag = (phase, {offsetX, offsetY}) => {
       if (phase === 'start') path = [];
-      if (chosen() === 'turn') return false;
+      this.setPen(null);
+      if (this.drag === 'turn') return false;
       path.push([offsetX, offsetY]);
-      const [[x, y], [right, down]] = [path[0], path[path.length - 1]];
-      const outline = chosen() === 'lasso' ? path : [[x, y], [right, y], [right, down], [x, down]];
-      element('outline').setAttribute('points', phase === 'end' ? '' : outline.join(' '));
+      const [x, y] = path[0];
+      this.outline(phase === 'end' ? [] : path);
       if (phase !== 'end') return true;
       if (Math.max(...path.map(([a, b]) => Math.hypot(a - x, b - y))) < 4) this.choose(x, y);
-      else this.selectWithin(outline);
+      else this.selectWithin(this.corners(path));
       return true;
     };
     this.stage.onClick = (x, y) => this.choose(x, y);
+    this.stage.onKey = (event) => this.onPenKey(event);
+    document.querySelectorAll('input[name=drag]').forEach((choice) => choice.addEventListener('change', () => this.setDrag(choice.value)));
+  }
+
+  /** What a drag does: "turn", "box" or "lasso". */
+  get drag() {
+    return document.querySelector('input[name=drag]:checked').value;
+  }
+
+  setDrag(mode) {
+    document.querySelector(`input[name=drag][value=${mode}]`).checked = true;
+    this.setPen(mode === 'turn' ? null : {x: this.stage.width / 2, y: this.stage.height / 2, corners: []});
+  }
+
+  /** Corners of the lasso or box that follows a path. */
+  corners(path) {
+    if (this.drag === 'lasso') return path;
+    const [[x, y], [right, down]] = [path[0], path[path.length - 1]];
+    return [[x, y], [right, y], [right, down], [x, down]];
+  }
+
+  outline(path) {
+    element('outline').setAttribute('points', path.length > 0 ? this.corners(path).join(' ') : '');
+  }
+
+  /** Shows the cross with which the keyboard draws, and the corners that are set; null: none. */
+  setPen(pen) {
+    if (pen === null && !this.pen) return;
+    this.pen = pen;
+    element('cross').setAttribute('visibility', pen ? 'visible' : 'hidden');
+    this.outline(pen && pen.corners.length > 0 ? [...pen.corners, [pen.x, pen.y]] : []);
+    if (!pen) return;
+    element('cross').setAttribute('transform', `translate(${pen.x} ${pen.y})`);
+    const share = (value, whole) => Math.round(100 * value / whole);
+    this.tell(`Cross ${share(pen.x, this.stage.width)} % from the left, ${share(pen.y, this.stage.height)} % from the top, ` +
+        `${pen.corners.length} corners set. Arrows move it, Space sets a corner, Enter selects.`);
+  }
+
+  /** Box and lasso by keyboard. @return whether the key was for them */
+  onPenKey(event) {
+    const {pen, stage: {width, height}} = this, step = event.shiftKey ? 40 : 8;
+    const ways = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]}, way = ways[event.key];
+    if (!pen) return false;
+    const within = (value, most) => Math.min(most - 1, Math.max(0, value));
+    if (way) this.setPen({...pen, x: within(pen.x + way[0], width), y: within(pen.y + way[1], height)});
+    else if (event.key === ' ') this.setPen({...pen, corners: [...pen.corners, [pen.x, pen.y]]});
+    else if (event.key === 'Enter') this.finishPen();
+    else return false;
+    return true;
+  }
+
+  finishPen() {
+    const {x, y, corners} = this.pen;
+    this.setPen({x, y, corners: []});
+    if (corners.length > 0) this.selectWithin(this.corners([...corners, [x, y]]));
+    else this.choose(x, y);
   }
 
   /** Selects the object of the point under a place, or the cell of a kept point. */
@@ -191,7 +253,7 @@ class Review {
     this.tell(points.length === 0 ? '' : `${object ? this.title(object) : 'Selection'}: ${grouped(removed)} removed and ` +
         `${grouped(points.length - removed)} kept points shown`);
     for (const item of element('objects').children) {
-      item.toggleAttribute('aria-current', Number(item.dataset.number) === object?.number);
+      setCurrent(item, Number(item.dataset.number) === object?.number);
     }
     this.paint();
   }
@@ -273,7 +335,7 @@ class Review {
                state ? ` ${state}` : '', make('small', {}, facts.join(', '))),
           make('button', {type: 'button', 'aria-label': `Keep ${this.title(object)}`}, 'Keep'),
           make('button', {type: 'button', 'aria-label': `Remove ${this.title(object)}`}, 'Remove'));
-      item.toggleAttribute('aria-current', object === this.selected.object);
+      setCurrent(item, object === this.selected.object);
       const [show, keep, remove] = item.children;
       show.addEventListener('click', () => this.visit(object));
       for (const [button, removed] of [[keep, 0], [remove, 1]]) {
@@ -310,15 +372,15 @@ class Review {
 
   paint() {
     if (!this.now) return;
-    const {data, base, now, marked, visible, preview} = this, mark = rgbOf(isDark() ? '#f0e442' : '#000000');
-    const kept = keptShades(), colours = LEGEND.map(([, hex]) => rgbOf(hex)), paint = new Uint8Array(4 * data.count);
+    const {data, base, now, marked, visible, preview} = this, paint = new Uint32Array(data.count);
+    const mark = painted(colourOf('--mark'), 3), kept = keptShades().map((colour) => painted(colour, 1));
+    const colours = LEGEND.map(([, name]) => painted(colourOf(name), 2));
     const least = preview === null ? 0 : this.threshold(preview);
     for (let i = 0; i < data.count; ++i) {
       const removed = preview === null ? now[i] : this.confidence[i] >= least ? 1 : 0;
       if (!visible[removed] && !marked[i]) continue;
       const byHand = preview === null && base[i] !== removed;
-      paint.set(marked[i] ? mark : byHand ? colours[2 + removed] : removed ? colours[1] : kept[data.height(i)], 4 * i);
-      paint[4 * i + 3] = marked[i] ? 3 : removed || byHand ? 2 : 1;
+      paint[i] = marked[i] ? mark : byHand ? colours[2 + removed] : removed ? colours[1] : kept[data.height(i)];
     }
     this.stage.setPaints([paint]);
   }

@@ -3,11 +3,6 @@
 
 const element = (id) => document.getElementById(id);
 const grouped = (number) => number.toLocaleString('en');
-const isDark = () => {
-  const set = document.documentElement.dataset.theme;
-  return set ? set === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
-};
-
 /** A new element with attributes, and text or children. */
 function make(tag, attributes, ...children) {
   const node = document.createElement(tag);
@@ -16,18 +11,49 @@ function make(tag, attributes, ...children) {
   return node;
 }
 
+const rgbOf = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+/** A colour of page.css, which depends on the scheme: "--kind-1". */
+const colourOf = (name) => rgbOf(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+/** How a point looks, as four bytes: its colour, and 0 hidden, 1 usual, 2 emphasised or 3 marked. */
+const painted = ([r, g, b], look) => (r | g << 8 | b << 16 | look << 24) >>> 0;
 /** 256 colours between two. */
 const shades = (low, high) => Array.from({length: 256}, (_, i) => low.map((value, axis) => value + (high[axis] - value) * i / 255));
 /** Of kept points, from low to high. */
-const keptShades = () => shades(...(isDark() ? ['#4c4f54', '#c4c7cc'] : ['#c3c6ca', '#6a6d72']).map(rgbOf));
-const rgbOf = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+const keptShades = () => shades(colourOf('--kept-low'), colourOf('--kept-high'));
+
+/** The bytes that `text` holds from `start` to `end`, as `printable` of benchmark/report/pack.cpp wrote them. */
+function bytesOfText(text, start, end) {
+  const bytes = new Uint8Array((((end - start) >> 1) * 13 + ((end - start) & 1) * 6) >> 3);
+  const digit = (i) => { const code = text.charCodeAt(i); return code === 33 ? 25 : code - 35; };
+  let bits = 0, count = 0, at = 0;
+  for (let i = start; i < end; i += 2) {
+    const isPair = i + 1 < end;
+    bits |= (isPair ? digit(i) + 91 * digit(i + 1) : digit(i)) << count;
+    for (count += isPair ? 13 : 6; count >= 8; count -= 8, bits >>= 8) bytes[at++] = bits & 255;
+  }
+  return bytes;
+}
+
+/** The stream in the script element `id`, which is unpacked while it is read. */
+function unpacked(id) {
+  const text = element(id).textContent, slice = 1 << 16;  // A slice ends with a whole byte.
+  let at = 0;
+  return new ReadableStream({pull(control) {
+    const end = Math.min(text.length, at + slice);
+    control.enqueue(bytesOfText(text, at, end));
+    if ((at = end) === text.length) control.close();
+  }}).pipeThrough(new DecompressionStream('deflate'));
+}
 
 /** Bytes of the stream in the script element `id`. */
-async function bytesOf(id) {
-  const text = atob(element(id).textContent);
-  const packed = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+const bytesOf = async (id) => new Uint8Array(await new Response(unpacked(id)).arrayBuffer());
+
+/** Lets the browser draw and react, if it could not for 15 ms. */
+let rested = 0;
+async function rest() {
+  if (performance.now() - rested < 15) return;
+  await new Promise((resolve) => setTimeout(resolve));
+  rested = performance.now();
 }
 
 /** Undoes `append_differences` into every fourth place of `values`, from `start` on. */
@@ -49,16 +75,43 @@ class SceneData {
     this.step = head.voxel / head.steps_per_voxel * 2 ** head.shift;
   }
 
-  async load() {
-    if (this.places) return;
-    const bytes = await bytesOf(this.head.stream);
-    const places = new Uint16Array(4 * this.count);
-    for (let axis = 0; axis < 4; ++axis) addDifferences(bytes, 2 * axis * this.count, this.count, places, axis);
-    this.labels = bytes.subarray(8 * this.count, 9 * this.count);
-    this.places = places;
+  /** Unpacks the points chunk by chunk. @param onChunk is called after each chunk */
+  async load(onChunk) {
+    if (this.isLoaded) return;
+    Object.assign(this, {places: new Uint16Array(4 * this.count), labels: new Uint8Array(this.count), chunks: [], loaded: 0});
+    const reader = unpacked(this.head.stream).getReader(), piece = new Uint8Array(9 * this.head.chunk);
+    let filled = 0;
+    for (let next = await reader.read(); !next.done; next = await reader.read()) {
+      for (let used = 0; used < next.value.length;) {
+        const size = 9 * Math.min(this.head.chunk, this.count - this.loaded), part = next.value.subarray(used, used + size - filled);
+        piece.set(part, filled);
+        used += part.length;
+        filled += part.length;
+        if (filled < size) continue;
+        this.addChunk(piece, size / 9);
+        onChunk?.(this.chunks[this.chunks.length - 1]);
+        filled = 0;
+        await rest();
+      }
+    }
     const [low, high] = this.quantiles(2, [0.01, 0.99]);
-    this.low = low;
-    this.high = Math.max(low + 1, high);
+    Object.assign(this, {low, high: Math.max(low + 1, high), isLoaded: true});
+  }
+
+  /** A chunk is a range of points, with the corners of their box in metres. */
+  addChunk(bytes, count) {
+    const {places, step, loaded: start} = this, low = [Infinity, Infinity, Infinity], high = [0, 0, 0];
+    for (let axis = 0; axis < 4; ++axis) addDifferences(bytes, 2 * axis * count, count, places, 4 * start + axis);
+    this.labels.set(bytes.subarray(8 * count, 9 * count), start);
+    for (let i = start; i < start + count; ++i) {
+      for (let axis = 0; axis < 3; ++axis) {
+        const value = places[4 * i + axis];
+        if (value < low[axis]) low[axis] = value;
+        if (value > high[axis]) high[axis] = value;
+      }
+    }
+    this.chunks.push({start, count, box: [low.map((value) => value * step), high.map((value) => (value + 1) * step)]});
+    this.loaded += count;
   }
 
   /** A byte for each point. */
@@ -86,6 +139,12 @@ class SceneData {
   box(share = 0.01) {
     const ends = [0, 1, 2].map((axis) => this.quantiles(axis, [share, 1 - share]));
     return [ends.map(([low]) => low * this.step), ends.map(([, high]) => (high + 1) * this.step)];
+  }
+
+  /** Corners of a box around the path of the sensor. */
+  pathBox() {
+    const sides = [0, 1, 2].map((axis) => this.head.trajectory.filter((_, i) => i % 3 === axis));
+    return [sides.map((side) => side.reduce((a, b) => Math.min(a, b)) - 15), sides.map((side) => side.reduce((a, b) => Math.max(a, b)) + 15)];
   }
 
   /** The squares of `size` metres that hold most of the points that `wanted` accepts: corners and count. */

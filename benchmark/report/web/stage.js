@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The canvas of a page: points drawn with WebGL, or on a plain canvas where there is no WebGL.
 
-// `paint` is a colour and how a point looks: 0 hidden, 1 usual, 2 emphasised, 3 marked.
+// `paint` is a colour and how a point looks, see `painted`.
 const VERTEX = `
 precision highp float;
 uniform mat4 matrix;
@@ -47,6 +47,7 @@ class Stage {
     this.listen();
     new ResizeObserver(() => this.request()).observe(canvas.parentElement);
     canvas.addEventListener('webglcontextrestored', () => location.reload());
+    addEventListener('beforeprint', () => this.render());
   }
 
   setUp(gl) {
@@ -70,20 +71,52 @@ class Stage {
     this.lines = gl.createBuffer();
   }
 
-  setPoints(data) {
-    this.data = data;
-    this.chosen = null;
-    if (!this.gl) return;
-    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.places);
-    this.gl.bufferData(this.gl.ARRAY_BUFFER, data.places, this.gl.STATIC_DRAW);
+  /** Shows points while they are unpacked, in one colour, along the path of the sensor. */
+  async unpack(data, azimuth) {
+    const {gl} = this;
+    const loading = data.load(({start, count}) => {
+      if (this.data !== data) return;  // Other points were chosen meanwhile.
+      element('view-status').textContent = `Unpacking points: ${Math.floor(100 * data.loaded / data.count)} %`;
+      if (gl) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+        gl.bufferSubData(gl.ARRAY_BUFFER, 8 * start, data.places.subarray(4 * start, 4 * (start + count)));
+      }
+      this.request();
+    });
+    Object.assign(this, {data, chosen: null});
+    if (gl) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+      gl.bufferData(gl.ARRAY_BUFFER, data.places, gl.STATIC_DRAW);
+    }
+    this.setPaints([new Uint32Array(data.count).fill(painted([128, 128, 128], 1))]);
+    this.lookAt(data.pathBox(), azimuth);
+    await loading;
   }
 
-  /** @param paints one or two arrays of four bytes for each point */
+  /** Ranges of points whose chunks may be in sight. Points are up to 14 pixels large. */
+  rangesInSight() {
+    const rows = this.rows(), ranges = [];
+    for (const {start, count, box} of this.data.chunks) {
+      const outside = [0, 0, 0, 0, 0];
+      for (let corner = 0; corner < 8; ++corner) {
+        const place = [0, 1, 2].map((axis) => box[corner >> axis & 1][axis]);
+        const [x, y, , w] = rows.map((row) => dot(row, place) + row[3]), edge = 1.03 * w;
+        [x > edge, x < -edge, y > edge, y < -edge, w < NEAR].forEach((is, side) => { outside[side] += is; });
+      }
+      if (outside.includes(8)) continue;
+      const last = ranges[ranges.length - 1];
+      if (last && last.start + last.count === start) last.count += count;
+      else ranges.push({start, count});
+    }
+    return ranges;
+  }
+
+  /** @param paints one or two arrays of `painted` words, one for each point */
   setPaints(paints) {
     const {gl} = this;
     this.paints = paints;
-    this.ground = rgbOf(isDark() ? '#0e0f11' : '#ffffff');
-    this.mark = rgbOf(isDark() ? '#f0e442' : '#000000');
+    this.ground = colourOf('--view-ground');
+    this.mark = colourOf('--mark');
     if (gl) {
       paints.forEach((paint, side) => {
         this.buffers[side] ??= gl.createBuffer();
@@ -101,9 +134,11 @@ class Stage {
     const asked = performance.now();
     requestAnimationFrame(() => {
       this.pending = false;
-      const waited = performance.now() - asked;
+      // While the view is turned, the time since the last frame counts; otherwise it was a pause.
+      const now = performance.now(), waited = now - (asked - this.drawn < 50 ? this.drawn : asked);
+      this.drawn = now;
       const factor = waited > 50 ? Math.max(0.3, 40 / waited) : waited < 25 ? 1.1 : 1;
-      this.detail = Math.min(1, Math.max(0.02, this.detail * factor));
+      this.detail = Math.min(1, Math.max(60000 / (1 + (this.data?.loaded ?? 0)), this.detail * factor));
       this.render(this.detail);
       clearTimeout(this.rest);
       if (this.detail < 1) this.rest = setTimeout(() => this.render(), 400);
@@ -146,7 +181,9 @@ class Stage {
     if (!this.resize() || this.paints.length === 0) return;
     if (!this.gl) return this.renderFlat();
     const {gl, at, data, ratio} = this, rows = this.rows();
-    const each = Math.floor(this.canvas.width / this.paints.length), skip = Math.max(1, Math.round(1 / detail));
+    // WebGL allows at most 255 bytes between points, of which each has eight.
+    const each = Math.floor(this.canvas.width / this.paints.length), skip = Math.min(31, Math.max(1, Math.round(1 / detail)));
+    const ranges = this.rangesInSight();
     const matrix = [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
     gl.uniformMatrix4fv(at('matrix'), false, matrix);
     gl.uniform1f(at('pixels'), ratio);
@@ -161,12 +198,14 @@ class Stage {
       gl.uniform1f(at('size'), this.size);
       gl.uniform1f(at('mode'), this.mode);
       gl.uniform1i(at('round'), 1);
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
-      gl.vertexAttribPointer(0, 4, gl.UNSIGNED_SHORT, false, 8 * skip, 0);
       gl.enableVertexAttribArray(1);
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[side]);
-      gl.vertexAttribPointer(1, 4, gl.UNSIGNED_BYTE, true, 4 * skip, 0);
-      gl.drawArrays(gl.POINTS, 0, Math.floor(data.count / skip));
+      for (const {start, count} of ranges) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+        gl.vertexAttribPointer(0, 4, gl.UNSIGNED_SHORT, false, 8 * skip, 8 * start);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[side]);
+        gl.vertexAttribPointer(1, 4, gl.UNSIGNED_BYTE, true, 4 * skip, 4 * start);
+        gl.drawArrays(gl.POINTS, 0, Math.ceil(count / skip));
+      }
       gl.disableVertexAttribArray(1);
       gl.uniform1f(at('mode'), 0);
       gl.uniform1f(at('unit'), 1);
@@ -196,14 +235,13 @@ class Stage {
   renderFlat() {
     const {width, height} = this.canvas, image = this.flat.createImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
-    const word = ([r, g, b]) => (r | g << 8 | b << 16 | 255 << 24) >>> 0;
-    pixels.fill(word(this.ground));
+    pixels.fill(painted(this.ground, 255));
     this.paints.forEach((paint, side) => {
       for (const look of [1, 2, 3]) {
         this.eachSeen(side, (i, x, y) => {
-          if (paint[4 * i + 3] !== look) return;
+          if (paint[i] >>> 24 !== look) return;
           const column = Math.floor((x + side * this.each) * this.ratio), line = Math.floor(y * this.ratio);
-          const at = line * width + column, colour = word(paint.subarray(4 * i));
+          const at = line * width + column, colour = (paint[i] | 255 << 24) >>> 0;
           pixels[at] = colour;
           if (look > 1 && column + 1 < width) pixels[at + 1] = colour;
         });
@@ -214,9 +252,9 @@ class Stage {
 
   /** Calls with number, place in pixels and depth of each point that is shown within a side. */
   eachSeen(side, visit) {
-    const {places, count, step} = this.data, paint = this.paints[side], [a, b, , d] = this.rows();
-    for (let i = 0; i < count; ++i) {
-      if (paint[4 * i + 3] === 0 || (this.mode === 1 && places[4 * i + 3] > this.scan)) continue;
+    const {places, step} = this.data, paint = this.paints[side], [a, b, , d] = this.rows();
+    for (const {start, count} of this.rangesInSight()) for (let i = start; i < start + count; ++i) {
+      if (paint[i] >>> 24 === 0 || (this.mode === 1 && places[4 * i + 3] > this.scan)) continue;
       const x = (places[4 * i] + 0.5) * step, y = (places[4 * i + 1] + 0.5) * step, z = (places[4 * i + 2] + 0.5) * step;
       const w = d[0] * x + d[1] * y + d[2] * z + d[3];
       if (w <= NEAR) continue;
@@ -303,7 +341,7 @@ class Stage {
   }
 
   /** A drag turns; with the right button, Shift or two fingers it moves; the wheel, the middle button
-      and two fingers zoom. `onDrag` may take a drag for itself, and `onClick` gets a click's place. */
+      and two fingers zoom. `onDrag` and `onKey` may take drags and keys for themselves, and `onClick` gets a click's place. */
   listen() {
     const {canvas} = this, pressed = new Map();  // The last event of each pointer that is down.
     let start = null;
@@ -350,7 +388,7 @@ class Stage {
       this.zoom(0.95 ** (-pixels / 100), event.offsetX, event.offsetY);
     }, {passive: false});
     canvas.addEventListener('keydown', (event) => {
-      if (event.ctrlKey || event.altKey || event.metaKey || !this.onArrow(event)) return;
+      if (event.ctrlKey || event.altKey || event.metaKey || !(this.onKey?.(event) || this.onArrow(event))) return;
       event.preventDefault();
     });
   }

@@ -94,6 +94,49 @@ TEST_CASE("What was said against what came true: each bin is where it says") {
   CHECK(count(svg, "class=\"mark\"") == 1 + 1);  // One of them in the legend.
 }
 
+TEST_CASE("Intervals are bars over their ends, the best method first") {
+  RunResults results = two_points();
+  CHECK(interval_chart(results, "erasor", "s").empty());
+  // x has F1 0.72 from 0.7 to 0.75, y has 1 from 0.9 to 1. The axis begins at 0.6; the plot begins
+  // behind the names, at 16 + 6.8 + 10 = 32.8, and is 230 wide. y is in the first row of 26 pixels.
+  results.cells[1].scores[0].intervals.emplace().rates = {{"F1", 0.7, 0.75}};
+  results.cells[2].scores[0].intervals.emplace().rates = {{"F1", 0.9, 1.0}};
+  const std::string svg = interval_chart(results, "erasor", "s").svg();
+  CHECK(is_well_formed(svg));
+  CHECK_THAT(svg, Contains("class=\"bar\" stroke=\"#D55E00\" points=\"205.3,57 262.8,57 \""));
+  CHECK_THAT(svg, Contains("class=\"bar\" stroke=\"#0072B2\" points=\"90.3,83 119.05,83 \""));
+  CHECK_THAT(svg, Contains("cx=\"101.8\" cy=\"83\" r=\"5\"><title>x: F1 0.7200, interval 0.7000 to "
+                           "0.7500</title>"));
+  CHECK(count(svg, "class=\"bar\"") == 2);
+  CHECK(count(svg, "class=\"mark\"") == 6);  // F1, PR and RR.
+  CHECK(interval_chart(results, "erasor", "other").empty());
+}
+
+TEST_CASE("Shares of points by range, time and class are where their parts are") {
+  RunResults results = two_points();
+  CHECK(parts_chart(results, "s").empty());
+  results.cells[1].columns = ColumnRecord{"1",
+                                          {{"rejection [range 10-20 m]", {150, 200}, ""},
+                                           {"rejection [range 20-30 m]", {200, 200}, ""},
+                                           {"rejection [range 30-40 m]", {0, 99}, ""},
+                                           {"rejection [time 90-100 %]", {50, 100}, ""},
+                                           {"rejection [moving-car]", {180, 200}, ""},
+                                           {"rejection [moving-car, range 10-20 m]", {1, 200}, ""},
+                                           {"preservation [road]", {0, 99}, ""}}};
+  const std::string svg = parts_chart(results, "s").svg();
+  CHECK(is_well_formed(svg));
+  // Plots are 230 wide and 180 high with their corners at (56, 76) and (360, 76). From 75 to 100 %
+  // the axis begins at 70; 10 to 20 m is at 15 of 60 m, 90 to 100 % at 95 of 100 %.
+  CHECK_THAT(svg, Contains("points=\"113.5,226 151.83,76 \""));
+  CHECK_THAT(svg, Contains("cx=\"113.5\" cy=\"226\" r=\"5\"><title>x, range 10-20 m: 75.00 % of "
+                           "moving points removed</title>"));
+  CHECK_THAT(svg, Contains("<title>x, time 90-100 %: 50.00 % of moving points removed</title>"));
+  CHECK_THAT(svg, Contains(">moving-car</text>"));
+  CHECK(count(svg, "class=\"mark\"") == 4 + 1);      // The legend has x alone.
+  CHECK(svg.find("static") == svg.rfind("static"));  // In the description: too few points.
+  CHECK(svg.find("30-40") == std::string::npos);
+}
+
 TEST_CASE("Lines of equal F1 go through the points that have it") {
   const std::string svg = pr_rr_chart(two_points(), "erasor").svg();
   // F1 0.9 where one rate is 100 and the other 90 * 100 / (200 - 90) = 81.818: at RR 81.818 the

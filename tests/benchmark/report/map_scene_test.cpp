@@ -96,7 +96,7 @@ TEST_CASE("Cells of a wide map are whole units of its coordinates") {
   // 0 m to 9,990 m: 799,200 steps need 20 bits, so 16 steps are a unit of 16 bits. The cells grow
   // from 16 steps by a quarter, to 20 steps and more.
   const Scene scene = line_scene(500, 10.0);
-  const PageFrame frame = page_frame(scene.points);
+  const PageFrame frame = page_frame(scene.points, scene.shift);
   const int unit = 1 << frame.shift;
   CHECK(unit == 16);
   CHECK(scene.review.kept_cell > kStepsPerVoxel);

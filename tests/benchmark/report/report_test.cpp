@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <zlib.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -33,18 +34,19 @@ std::string inflated(const std::string& packed, std::size_t size) {
   return bytes;
 }
 
-std::string from_base64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+std::string from_printable(const std::string& text) {
   std::string bytes;
   unsigned bits = 0;
   int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6U | static_cast<unsigned>(digits.find(c));
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 0xFFU);
+  const auto digit = [&](std::size_t i) {
+    return text[i] == '!' ? 25U : static_cast<unsigned>(text[i] - '#');
+  };
+  for (std::size_t i = 0; i < text.size(); i += 2) {
+    const bool is_pair = i + 1 < text.size();
+    bits |= (is_pair ? digit(i) + 91 * digit(i + 1) : digit(i)) << count;
+    for (count += is_pair ? 13 : 6; count >= 8; count -= 8, bits >>= 8U) {
+      bytes += static_cast<char>(bits & 0xFFU);
+    }
   }
   return bytes;
 }
@@ -129,13 +131,20 @@ TEST_CASE("more groups than the limit still end", "[report]") {
   CHECK(points.size() == 10);
 }
 
-TEST_CASE("base64 is that of RFC 4648", "[report]") {
-  CHECK(base64("") == "");
-  CHECK(base64("f") == "Zg==");
-  CHECK(base64("fo") == "Zm8=");
-  CHECK(base64("foo") == "Zm9v");
-  CHECK(base64("foobar") == "Zm9vYmFy");
-  CHECK(base64(std::string("\xFF\xFE\x00", 3)) == "//4A");
+TEST_CASE("bytes of a page come back from its text, which cannot end its element", "[report]") {
+  CHECK(printable("") == "");
+  // 65 has eight bits: 65 in the first of two characters. The value 25 is not written as '<'.
+  CHECK(printable("A") == "d#");
+  CHECK(printable(std::string(1, 25)) == "!#");
+  std::string bytes, all;
+  for (int i = 0; i < 300; ++i) {
+    bytes += static_cast<char>(i * i * 7 + i / 3);
+    const std::string text = printable(bytes);
+    CHECK(from_printable(text) == bytes);
+    all += text;
+  }
+  CHECK(all.find('<') == std::string::npos);
+  CHECK(std::ranges::all_of(all, [](char letter) { return letter > ' ' && letter < '~'; }));
 }
 
 TEST_CASE("text cannot leave its place in a page", "[report]") {
@@ -204,10 +213,10 @@ TEST_CASE("a scene has every point's verdict by every cell", "[report]") {
   CHECK(packed.streams[2].first == "scene-4-1");
   CHECK(head["points"] == 4);
   CHECK(head["origin"][0] == 5);  // 1 m in voxels of 0.2 m.
-  const std::string bytes = inflated(from_base64(packed.streams[0].second), 9 * 4);
+  const std::string bytes = inflated(from_printable(packed.streams[0].second), 9 * 4);
   REQUIRE(bytes.size() == 36);
-  const std::string right = inflated(from_base64(packed.streams[1].second), 4);
-  const std::string wrong = inflated(from_base64(packed.streams[2].second), 4);
+  const std::string right = inflated(from_printable(packed.streams[1].second), 4);
+  const std::string wrong = inflated(from_printable(packed.streams[2].second), 4);
   std::vector<std::string> found;
   for (std::size_t i = 0; i < 4; ++i) {
     found.push_back(std::to_string(value_of(bytes, 0, 4, i)) + " scan " +
@@ -216,10 +225,22 @@ TEST_CASE("a scene has every point's verdict by every cell", "[report]") {
                     std::to_string(static_cast<int>(right[i])) +
                     std::to_string(static_cast<int>(wrong[i])));
   }
-  // 16 steps of 0.0125 m in a voxel, 5 voxels in a metre.
-  CHECK(found == std::vector<std::string>{
-                     "0 scan 0 label 1 verdicts 01", "0 scan 1 label 2 verdicts 10",
-                     "80 scan 0 label 2 verdicts 10", "160 scan 0 label 0 verdicts 01"});
+  // A unit is two steps of 0.0125 m, so there are 40 in a metre.
+  CHECK(found ==
+        std::vector<std::string>{"0 scan 0 label 1 verdicts 01", "0 scan 1 label 2 verdicts 10",
+                                 "40 scan 0 label 2 verdicts 10", "80 scan 0 label 0 verdicts 01"});
+}
+
+TEST_CASE("points are in chunks, each of which begins anew", "[report]") {
+  Scene scene;
+  scene.labels = {{40, "road", LabelClass::kStatic}};
+  for (int i = 0; i < 16386; ++i) scene.points.push_back(at(2 * i));
+  const std::string bytes =
+      inflated(from_printable(pack_scene(scene, 0).streams[0].second), 9 * 16386);
+  REQUIRE(bytes.size() == 9 * 16386);
+  CHECK(value_of(bytes, 0, 16384, 16383) == 16383);
+  CHECK(value_of(bytes, 9 * 16384, 2, 0) == 16384);
+  CHECK(value_of(bytes, 9 * 16384, 2, 1) == 16385);
 }
 
 TEST_CASE("points beyond the range limits are not shown", "[report]") {
