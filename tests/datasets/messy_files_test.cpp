@@ -250,7 +250,9 @@ TEST_CASE("formats that are not read are named with a program that converts them
        std::vector<std::pair<std::string, std::string>>{{"a.e57", "CloudCompare"},
                                                         {"a.ptx", "CloudCompare"},
                                                         {"a.pts", "CloudCompare"},
-                                                        {"a.laz", "laszip"},
+                                                        {"a.laz", "pdal"},
+                                                        {"a.las", "PointSourceId"},
+                                                        {"a.npz", "numpy.save"},
                                                         {"a.pcd.gz", "gunzip"},
                                                         {"a.pcap", "ouster-cli"},
                                                         {"a.osf", "ouster-cli"},
@@ -266,9 +268,9 @@ TEST_CASE("formats that are not read are named with a program that converts them
     }
   }
   const TemporaryFolder folder;
-  const auto map = folder.write("map.las", "LASF");
+  const auto map = folder.write("map.ply", "ply");
   check_says(message_of<DataError>([&] { open_sequence(map.string(), {}); }),
-             {"map.las: is one cloud", "a file for each scan", "pdal"});
+             {"map.ply: is one cloud", "a file for each scan", "pdal"});
 }
 
 TEST_CASE("dumps of programs are named with what makes a sequence of them", "[files]") {

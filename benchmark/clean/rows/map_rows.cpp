@@ -9,7 +9,6 @@
 #include "core/scan/confidence_store.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "datasets/clouds/las/las_head.h"
 #include "datasets/records/number_types.h"
 
 namespace raymoval {
@@ -170,16 +169,6 @@ void MapRows::turn_normals(const Scan& scan, PointRecords& rows) const {
   }
 }
 
-std::shared_ptr<const LasNotes> MapRows::las_notes(const PointRecords& stored) const {
-  if (stored.las == nullptr || frame_ == PointFrame::kWorld) return stored.las;
-  // A grid of 0.1 mm covers 200 km; the grid of a scan may only cover the surroundings of the
-  // sensor.
-  constexpr double kFinest = 1e-4;
-  auto notes = std::make_shared<LasNotes>(*stored.las);
-  notes->scale = notes->scale.cwiseAbs().cwiseMax(kFinest);
-  return notes;
-}
-
 ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
   ScanRows result;
   if (stored == nullptr) {
@@ -192,7 +181,6 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
                       "when no program writes there.");
     }
     result.rows = copied_rows(scan, *stored, layout_);
-    result.rows.las = las_notes(*stored);
   }
   result.world = world_points(scan, stored);
   if (stored == nullptr || frame_ == PointFrame::kSensor) {

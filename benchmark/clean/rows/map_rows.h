@@ -59,8 +59,6 @@ class MapRows {
   void check_fields(const Sequence& sequence, Progress& progress, const std::atomic<bool>& cancel);
   [[nodiscard]] std::vector<Eigen::Vector3d> world_points(const Scan& scan,
                                                           const PointRecords* stored) const;
-  /// The parts of a scan's LAS header that a LAS file of the map takes over.
-  [[nodiscard]] std::shared_ptr<const LasNotes> las_notes(const PointRecords& stored) const;
   void turn_normals(const Scan& scan, PointRecords& rows) const;
 
   const Sequence& sequence_;
@@ -82,7 +80,6 @@ template <class ValueOf>
 ScanRows rows_with_field(const ScanRows& rows, const RecordLayout& layout, ValueOf value_of) {
   const std::size_t size = rows.rows.size();
   ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
-  result.rows.las = rows.rows.las;
   const std::size_t bytes = rows.rows.layout.row_bytes;
   for (std::size_t i = 0; i < size; ++i) {
     const auto value = value_of(i);

@@ -39,7 +39,6 @@ void VoxelRows::keep_row(Cell& cell, bool is_new, const std::byte* row) {
 }
 
 void VoxelRows::add(const ScanRows& scan, std::size_t point) {
-  if (las_ == nullptr) las_ = scan.rows.las;
   const Eigen::Vector3d offset = scan.world[point] - origin_;
   const VoxelIndex index = voxel_index(offset, 1.0 / cell_size_);
   const auto [place, is_new] = cells_.try_emplace(voxel_key(index));
@@ -77,7 +76,6 @@ void VoxelRows::take(const std::function<void(const ScanRows& piece)>& give) {
   std::sort(keys.begin(), keys.end());
   for (std::size_t first = 0; first < keys.size(); first += kCellsPerPiece) {
     ScanRows piece{{layout_, {}, 0, 1}, {}};
-    piece.rows.las = las_;
     const std::size_t end = std::min(keys.size(), first + kCellsPerPiece);
     piece.rows.bytes.reserve((end - first) * layout_.row_bytes);
     for (std::size_t i = first; i < end; ++i) append(cells_.at(keys[i]), piece);

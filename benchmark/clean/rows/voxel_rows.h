@@ -47,7 +47,6 @@ class VoxelRows {
   Eigen::Vector3d origin_;
   VoxelMap<Cell> cells_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;  ///< Rows that never move.
-  std::shared_ptr<const LasNotes> las_;               ///< Of the first scan.
 };
 
 }  // namespace raymoval
