@@ -14,7 +14,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <set>
 #include <system_error>
 
 #include "core/files/descriptor.h"
@@ -75,9 +74,9 @@ std::string OutputTail::text() const {
   return tail.substr(line == std::string::npos || line + 1 == tail.size() ? 1 : line + 1);
 }
 
-/// Size on the disk of the files below a folder, and of deleted files on the same disk that
-/// `members` hold open. Files may disappear meanwhile: a file that cannot be read does not count.
-double folder_size_mib(const std::filesystem::path& folder, const std::vector<pid_t>& members) {
+/// Size on the disk of the files below a folder. Files may disappear meanwhile: a file that cannot
+/// be read does not count.
+double folder_size_mib(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   constexpr auto kSkip = fs::directory_options::skip_permission_denied;
   double mib = 0.0;
@@ -86,19 +85,10 @@ double folder_size_mib(const std::filesystem::path& folder, const std::vector<pi
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kSkip)) {
       struct stat status {};
       if (::lstat(entry.path().c_str(), &status) != 0) continue;
-      mib += size_mib(status);
+      mib += static_cast<double>(status.st_blocks) / 2048.0;
     }
   } catch (const fs::filesystem_error&) {
     // A folder disappeared; the next measurement has the rest.
-  }
-  struct stat own {};
-  if (::stat(folder.c_str(), &own) != 0) return mib;
-  std::set<ino_t> nameless;  // Several may hold the same file.
-  for (const pid_t process : members) {
-    for (const OpenFile& file : open_files(process)) {
-      if (file.status.st_nlink > 0 || file.status.st_dev != own.st_dev) continue;
-      if (nameless.insert(file.status.st_ino).second) mib += size_mib(file.status);
-    }
   }
   return mib;
 }
@@ -197,7 +187,7 @@ class ChildWatch {
   [[nodiscard]] bool exceeds_folder() {
     if (setup_.limits.folder_mib <= 0.0 || !folder_pace_.is_due()) return false;
     folder_pace_.begin();
-    const double size = folder_size_mib(setup_.folder, family_.members());
+    const double size = folder_size_mib(setup_.folder);
     folder_pace_.end();
     return size > setup_.limits.folder_mib;
   }

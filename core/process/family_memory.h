@@ -4,7 +4,6 @@
 #include <sys/types.h>
 
 #include <chrono>
-#include <ctime>
 #include <vector>
 
 namespace raymoval {
@@ -29,23 +28,18 @@ class Pace {
   Clock::time_point begun_, next_, earliest_;
 };
 
-/// The time as file systems note it.
-timespec file_clock();
-
 /// Measures the memory of a family of processes again and again, at little cost.
 ///
-/// This is the memory that the system would regain if the family ended, without files on a disk.
-/// Memory that processes share, after a fork or through shared memory, counts once (the sum of
-/// Pss_Anon and Pss_Shmem). Files in a file system without a disk (/dev/shm, memfd) also count once
-/// if the family has them open without mapping them and they were written since the family began.
-/// Such a file does not count if it is neither open nor mapped, because its owner is then unknown.
+/// This is the memory that the system would regain if the family ended, without files. Memory that
+/// processes share, after a fork or through shared memory, counts once (the sum of Pss_Anon and
+/// Pss_Shmem).
 ///
 /// The system computes shares by a walk through all pages. So they are only read if the sum of
 /// RssAnon and RssShmem of all processes, which is never less, exceeds the limit.
 class FamilyMemory {
  public:
   /// @param limit_mib 0 means that there is none
-  explicit FamilyMemory(double limit_mib, timespec (*clock)() = file_clock);
+  explicit FamilyMemory(double limit_mib) : limit_mib_(limit_mib) {}
 
   /// The memory of these processes in MiB. It is exact if it exceeds the limit; else it may be more
   /// than their memory.
@@ -56,16 +50,10 @@ class FamilyMemory {
   [[nodiscard]] bool counts_shares_in_full() const { return counts_shares_in_full_; }
 
  private:
-  void follow_clock();
   [[nodiscard]] double proportional_mib(const std::vector<pid_t>& members);
-  [[nodiscard]] double unmapped_files_mib(const std::vector<pid_t>& members) const;
 
   double limit_mib_;
-  timespec (*clock_)();
-  timespec began_;  ///< Files that were written before are not the family's.
-  Pace::Clock::time_point last_look_ = Pace::Clock::now();
-  Pace share_pace_, file_pace_;
-  double files_mib_ = 0.0;
+  Pace share_pace_{std::chrono::milliseconds(20)};
   double last_share_mib_ = 0.0, sum_then_mib_ = 0.0;  ///< Of the last measurement of shares.
   bool counts_shares_in_full_ = false;
 };

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/reading/fingerprint.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/datasets/written_cloud.h"
 

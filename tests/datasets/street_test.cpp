@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/reading/fingerprint.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

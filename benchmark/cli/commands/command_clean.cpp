@@ -22,7 +22,6 @@
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
-#include "datasets/reading/loaded_data.h"
 
 namespace raymoval {
 namespace {
@@ -329,15 +328,13 @@ ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Prog
   facts.report = check_data(sequence, flags.path, flags.force,
                             {flags.work.thread_count(), &progress, &interrupt_flag()});
   progress.set_context(writing.method + " on " + sequence.name);
-  // A scan that changes between the method's run and the writing of the map is an error.
-  const WatchedSequence data = watched(sequence);
-  CleanOutputs outputs(paths, writing, data.sequence, progress, interrupt_flag());
+  CleanOutputs outputs(paths, writing, sequence, progress, interrupt_flag());
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
   const MethodAnswer answer =
-      edits ? edited_removals(flags, *edits, *data.sequence.scans, facts, progress)
-            : find_removals(flags, method, data.sequence, paths, progress);
+      edits ? edited_removals(flags, *edits, *sequence.scans, facts, progress)
+            : find_removals(flags, method, sequence, paths, progress);
   const MaskStore& masks = answer.masks;
-  write_outputs(*data.sequence.scans, answer, facts, outputs, progress);
+  write_outputs(*sequence.scans, answer, facts, outputs, progress);
   facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!is_control(method.entry->name)) {
     check_removed(masks.removed_count(), masks.point_count(), flags.path);

@@ -182,8 +182,7 @@ Command add_run_command(CommandParser& program) {
   options.set_footer(
       "The controls noop, remove-all and oracle are added and checked. Each method runs in its "
       "own\n"
-      "process. If it crashes or exceeds a limit, or if its data or program changes during the "
-      "run, the\n"
+      "process. If it crashes or exceeds a limit, the "
       "cell fails and the run continues. The --out folder is marked with .raymoval-run; only files "
       "of the\n"
       "run itself are ever deleted in it.\n"
