@@ -323,7 +323,7 @@ void serve_method(const MethodRegistry& registry) {
   MethodAnswer answer;
   try {
     Sequence sequence = open_sequence(order.place.path, order.place.options,
-                                      {order.options.threads, &progress, nullptr, false});
+                                      {order.options.threads, &progress, nullptr});
     if (sequence.up_choice) sequence.up_choice = std::make_shared<const UpChoice>(order.up);
     answer = run_method({&sequence, &order.request, order.options, &progress});
   } catch (const Error& error) {

@@ -8,6 +8,7 @@
 #include "benchmark/process/split_sensors.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/reading/fingerprint.h"
 #include "datasets/registration/pose_fit.h"
 #include "eval/points/labelled_voxels.h"
 #include "eval/scan_passes.h"

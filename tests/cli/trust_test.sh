@@ -72,7 +72,7 @@ fi
 # A cleaner of caches takes some scans.
 expect 0 "" run --sequence $scene --quiet --method comb --out before
 rm cache/simulated/town-*/velodyne/00000[24].bin
-expect 0 "is missing); it is simulated again" run --sequence $scene --method comb --out after
+expect 0 "); it is simulated again" run --sequence $scene --method comb --out after
 holds "the scores are the same" diff <(cut -d, -f1-15 before/results.csv) \
   <(cut -d, -f1-15 after/results.csv)
 

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "datasets/clouds/format/cloud_header.h"
 #include "datasets/clouds/format/field_names.h"
 #include "datasets/clouds/format/stored_points.h"
 #include "datasets/clouds/numpy/npy_head.h"

@@ -55,12 +55,11 @@ const char* set_variable(const char* name) {
 struct CachedScene {
   simulated::SceneWriting writing;
   fs::path folder;
-  bool check_content = true;
+  std::size_t scans = 0;
 
   /// Why it must be generated again; only for an existing folder.
   [[nodiscard]] std::string problem() const {
-    return simulated::scene_folder_problem(folder, writing.identity, check_content,
-                                           writing.threads);
+    return simulated::scene_folder_problem(folder, writing.identity, scans);
   }
   [[nodiscard]] bool is_whole() const { return has_folder(folder) && problem().empty(); }
   void say(const std::string& line) const {
@@ -69,8 +68,7 @@ struct CachedScene {
 };
 
 /// @param writing its identity is computed here
-CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing,
-                     bool check_content) {
+CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing) {
   const SimulationOptions& options = writing.options;
   const simulated::NamedText world = simulated::find_world(options.scene);
   const simulated::WorldFile file = simulated::parse_world(world);
@@ -80,7 +78,7 @@ CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing
       options.scans > 0 ? options.scans : static_cast<std::size_t>(file.scans);
   writing.identity = identity(options, world, sensor, scans);
   const std::string name = world.name + "-" + writing.identity.substr(0, 16);
-  return {std::move(writing), cache_root / "simulated" / name, check_content};
+  return {std::move(writing), cache_root / "simulated" / name, scans};
 }
 
 /// Waits until the lock is held. On a file system without locks it does not wait: two processes may
@@ -147,10 +145,8 @@ fs::path default_cache_root() {
 }
 
 fs::path cached_simulation(const SimulationOptions& options, const fs::path& cache_root,
-                           int threads, Progress* progress, const std::atomic<bool>* cancel,
-                           bool check_content) {
-  const CachedScene scene =
-      scene_in(cache_root, {options, "", threads, progress, cancel}, check_content);
+                           int threads, Progress* progress, const std::atomic<bool>* cancel) {
+  const CachedScene scene = scene_in(cache_root, {options, "", threads, progress, cancel});
   if (has_folder(scene.folder)) {
     const std::string problem = scene.problem();
     if (problem.empty()) {
@@ -165,7 +161,7 @@ fs::path cached_simulation(const SimulationOptions& options, const fs::path& cac
 }
 
 bool is_cached(const SimulationOptions& options, const fs::path& cache_root) {
-  return scene_in(cache_root, {options, ""}, false).is_whole();
+  return scene_in(cache_root, {options, ""}).is_whole();
 }
 
 }  // namespace raymoval

@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -49,11 +47,7 @@ void write_synced(const fs::path& path, const void* data, std::size_t size) {
   if (!written || ::fsync(file.get()) != 0) throw_unwritable(path);
 }
 
-std::string hash_of(const void* data, std::size_t size) {
-  return content_hash({static_cast<const char*>(data), size});
-}
-
-/// Writes the files of a new folder and, last, the list of them. Members throw DataError naming the
+/// Writes the files of a new folder and, last, its mark. Members throw DataError naming the
 /// path and the system's reason.
 class SceneFolder {
  public:
@@ -70,25 +64,18 @@ class SceneFolder {
 
   /// Writes and syncs a file. Thread-safe.
   /// @param name relative to the folder, below velodyne/ or labels/ or in the folder itself
-  void write(const std::string& name, const void* data, std::size_t size) {
+  void write(const std::string& name, const void* data, std::size_t size) const {
     write_synced(folder_ / name, data, size);
-    Entry entry{size, hash_of(data, size)};
-    const std::lock_guard lock(mutex_);
-    entries_[name] = std::move(entry);
   }
-  void write(const std::string& name, const std::string& text) {
+  void write(const std::string& name, const std::string& text) const {
     write(name, text.data(), text.size());
   }
 
-  /// Writes the list and syncs the names of all files.
-  void finish(const std::string& identity) {
+  /// Writes the mark and syncs the names of all files.
+  void finish(const std::string& identity) const {
     nlohmann::ordered_json json;
     json["schema_version"] = kManifestVersion;
     json["identity"] = identity;
-    json["files"] = nlohmann::ordered_json::object();
-    for (const auto& [name, entry] : entries_) {
-      json["files"][name] = {{"bytes", entry.bytes}, {"xxh3_128", entry.hash}};
-    }
     for (const char* below : {"velodyne", "labels"}) sync_folder(folder_ / below);
     const std::string text = json.dump(1) + "\n";
     write_synced(folder_ / kManifestName, text.data(), text.size());
@@ -96,13 +83,7 @@ class SceneFolder {
   }
 
  private:
-  struct Entry {
-    std::size_t bytes = 0;
-    std::string hash;
-  };
   fs::path folder_;
-  std::mutex mutex_;
-  std::map<std::string, Entry> entries_;
 };
 
 /// T_camera_lidar of a car like KITTI's: the camera looks ahead, 27 cm before and 8 cm below the
@@ -126,7 +107,7 @@ std::string row_text(const Pose& pose) {
   return text;
 }
 
-void write_scan(const SimulatedSequence& sequence, std::size_t index, SceneFolder& folder) {
+void write_scan(const SimulatedSequence& sequence, std::size_t index, const SceneFolder& folder) {
   const Scan scan = sequence.load(index);
   const std::vector<std::uint32_t> labels = sequence.labels(scan);
   std::vector<float> values(4 * scan.size());
@@ -139,7 +120,7 @@ void write_scan(const SimulatedSequence& sequence, std::size_t index, SceneFolde
                labels.size() * sizeof(std::uint32_t));
 }
 
-void write_tables(const SimulatedSequence& sequence, SceneFolder& folder) {
+void write_tables(const SimulatedSequence& sequence, const SceneFolder& folder) {
   const Pose Tr = camera_from_lidar();
   std::string poses;
   std::string times;
@@ -167,7 +148,7 @@ std::string angles_text(const SimulationOptions& options) {
 }
 
 void write_description(const SimulationOptions& options, const SimulatedSequence& sequence,
-                       SceneFolder& folder) {
+                       const SceneFolder& folder) {
   const auto known = sensor_model_names();
   const bool named = std::find(known.begin(), known.end(), sequence.sensor_name()) != known.end();
   nlohmann::ordered_json record;
@@ -205,7 +186,7 @@ nlohmann::ordered_json moves_of(const SimulatedSequence& sequence, std::size_t m
   return changes;
 }
 
-void write_movers(const SimulatedSequence& sequence, SceneFolder& folder) {
+void write_movers(const SimulatedSequence& sequence, const SceneFolder& folder) {
   std::vector<std::vector<MoverTruth>> states;
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     states.push_back(sequence.movers(static_cast<double>(i) * sequence.scan_period_s()));
@@ -224,7 +205,7 @@ void write_movers(const SimulatedSequence& sequence, SceneFolder& folder) {
 
 void write_files(const SceneWriting& writing, const fs::path& folder) {
   const auto sequence = make_simulated(writing.options, writing.threads);
-  SceneFolder files(folder);
+  const SceneFolder files(folder);
   Progress* progress = writing.progress;
   if (progress != nullptr) progress->begin("simulating " + sequence->name(), sequence->size());
   parallel_for(writing.threads, sequence->size(), 1, [&](std::size_t i) {
@@ -239,55 +220,18 @@ void write_files(const SceneWriting& writing, const fs::path& folder) {
   files.finish(writing.identity);
 }
 
-struct ListedFile {
-  std::string name;
-  std::uintmax_t bytes = 0;
-  std::string hash;
-};
-
-/// @throws nlohmann::json::exception if it has another form
-std::vector<ListedFile> listed_files(const nlohmann::json& manifest) {
-  std::vector<ListedFile> files;
-  for (const auto& [name, file] : manifest.at("files").items()) {
-    files.push_back(
-        {name, file.at("bytes").get<std::uintmax_t>(), file.at("xxh3_128").get<std::string>()});
-  }
-  return files;
-}
-
-std::string size_problem(const fs::path& folder, const std::vector<ListedFile>& files) {
-  std::size_t scans = 0;
-  for (const ListedFile& file : files) {
-    if (!has_file(folder / file.name)) return file.name + " is missing";
-    const std::uintmax_t bytes = plain_file_size(folder / file.name);
-    if (bytes != file.bytes) {
-      return file.name + " has " + grouped_text(bytes) + " bytes, written were " +
-             grouped_text(file.bytes);
-    }
-    scans += file.name.starts_with("velodyne/") ? 1 : 0;
-  }
-  if (!has_folder(folder / "velodyne")) return "velodyne/ is missing";
-  const std::vector<fs::path> there = entries_of(folder / "velodyne");
-  const auto found = static_cast<std::size_t>(std::count_if(
-      there.begin(), there.end(), [](const fs::path& path) { return path.extension() == ".bin"; }));
-  if (found != scans) {
-    return "velodyne/ has " + counted_text(found, "scan") + ", written were " +
-           std::to_string(scans);
-  }
-  return "";
-}
-
-std::string content_problem(const fs::path& folder, const std::vector<ListedFile>& files,
-                            int threads) {
-  std::vector<char> differs(files.size(), 0);
-  parallel_for(threads, files.size(), 1, [&](std::size_t i) {
-    const std::vector<std::byte> bytes = read_bytes(folder / files[i].name);
-    differs[i] = hash_of(bytes.data(), bytes.size()) != files[i].hash ? 1 : 0;
-  });
-  const auto changed = std::find(differs.begin(), differs.end(), 1);
-  if (changed == differs.end()) return "";
-  return files[static_cast<std::size_t>(changed - differs.begin())].name +
-         " has another content than was written";
+/// "velodyne/ has 4 scans, written were 3"; empty if the folder has as many.
+std::string count_problem(const fs::path& folder, const char* below, const char* extension,
+                          std::size_t scans) {
+  if (!has_folder(folder / below)) return std::string(below) + "/ is missing";
+  const std::vector<fs::path> there = entries_of(folder / below);
+  const auto found =
+      static_cast<std::size_t>(std::count_if(there.begin(), there.end(), [&](const fs::path& path) {
+        return path.extension() == extension;
+      }));
+  if (found == scans) return "";
+  return std::string(below) + "/ has " + counted_text(found, "scan") + ", written were " +
+         std::to_string(scans);
 }
 
 }  // namespace
@@ -318,15 +262,16 @@ void write_scene(const SceneWriting& writing, const fs::path& target,
 }
 
 std::string scene_folder_problem(const fs::path& folder, const std::string& identity,
-                                 bool with_content, int threads) {
+                                 std::size_t scans) {
   try {
-    const fs::path list = folder / kManifestName;
-    if (!has_file(list)) return std::string(kManifestName) + " is missing";
-    const nlohmann::json manifest = read_json(list);
-    if (manifest.at("identity") != identity) return "it is of another scene";
-    const std::vector<ListedFile> files = listed_files(manifest);
-    const std::string problem = size_problem(folder, files);
-    return problem.empty() && with_content ? content_problem(folder, files, threads) : problem;
+    for (const char* name :
+         {kManifestName, "poses.txt", "times.txt", "calib.txt", "sequence.json"}) {
+      if (!has_file(folder / name)) return std::string(name) + " is missing";
+    }
+    if (read_json(folder / kManifestName).at("identity") != identity)
+      return "it is of another scene";
+    const std::string problem = count_problem(folder, "velodyne", ".bin", scans);
+    return problem.empty() ? count_problem(folder, "labels", ".label", scans) : problem;
   } catch (const nlohmann::json::exception&) {
     return std::string(kManifestName) + " is damaged";
   } catch (const UnreadableError&) {

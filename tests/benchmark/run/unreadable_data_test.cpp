@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stored results of a sequence whose data cannot be read any more.
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "benchmark/result/sealed_json.h"
 #include "benchmark/run/runner.h"
