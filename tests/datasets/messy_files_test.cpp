@@ -290,20 +290,6 @@ TEST_CASE("dumps of programs are named with what makes a sequence of them", "[fi
              {"Scans --poses FILE", "odom_poses.txt", "optimized_poses.txt"});
 }
 
-TEST_CASE("endings of files may be in upper case", "[files]") {
-  const TemporaryFolder folder;
-  write_scans(folder, {"0.BIN", "1.Bin"});
-  folder.write("poses.txt", kIdentityRow + kIdentityRow);
-  CHECK(names_of(open_sequence(folder.text(), {})) == std::vector<std::string>{"0", "1"});
-}
-
-TEST_CASE("rows of one time are one pose where poses go by row", "[trajectories]") {
-  const TemporaryFolder folder;
-  write_scans(folder, {"0.bin", "1.bin"});
-  folder.write("poses.txt", tum_row("1", 1) + tum_row("1", 1) + tum_row("2", 2));
-  CHECK(xs_of(open_sequence(folder.text(), {})) == std::vector<double>{1, 2});
-}
-
 TEST_CASE("a row of nan at an end is continued for a moment", "[trajectories]") {
   std::vector<std::string> notes;
   const auto poses = stamped_poses(

@@ -147,19 +147,6 @@ TEST_CASE("a cloud in rows and its viewpoint stay as they are in .pcd, the rows 
   CHECK(*map.viewpoint == (Eigen::Matrix<double, 7, 1>() << 0, 0, 0, 1, 0, 0, 0).finished());
 }
 
-TEST_CASE("a file of no points has the layout it was begun with", "[records]") {
-  const TemporaryFolder folder;
-  std::mt19937 random(10);
-  PointRecords none = random_records(random, false);
-  none.bytes.clear();
-  none.width = 0;
-  for (const char* name : {"a.pcd", "a.npy"}) {
-    const PointRecords again = round_trip(folder / name, none);
-    CHECK(again.size() == 0);
-    CHECK(again.layout.fields.size() == none.layout.fields.size());
-  }
-}
-
 TEST_CASE("records written in pieces read back as one, from when they have their name",
           "[records]") {
   const TemporaryFolder folder;
@@ -201,15 +188,6 @@ TEST_CASE("a .bin file has the fields that the user names", "[records][bin]") {
   const Cloud cloud = read_cloud(path, Eigen::Vector3d(1, 0, 0), reading);
   CHECK(cloud.points == std::vector<Eigen::Vector3f>{{0, 2, 3}, {0, 2, 3}});
   CHECK(cloud.intensity.empty());
-}
-
-TEST_CASE("a .bin file of another size tells which sizes fit", "[records][bin]") {
-  const TemporaryFolder folder;
-  const auto path = folder.write("a.bin", std::string(60, '\0'));  // 3 x 5 or 5 x 3 floats.
-  check_says(message_of<DataError>([&] { read_records(path); }),
-             {"60 bytes", "multiple of 16", "12 (3 float32) or 20 (5 float32)", "--point-layout"});
-  check_says(message_of<DataError>([&] { read_records(path, {"x y z t:f8 r:u1"}); }),
-             {"multiple of 21 (x y z t:f8 r:u1)", "after point 2"});
 }
 
 TEST_CASE("a point layout that cannot be is named", "[records][layout]") {
