@@ -26,7 +26,7 @@
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/progress.h"
-#include "core/scan/packed_mask.h"
+#include "core/scan/mask_store.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "datasets/world_axes/up_direction.h"

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/scan/label_rule.h"
 #include "core/scan/mask_store.h"
-#include "core/scan/packed_mask.h"
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
 #include "tests/datasets/temporary_folder.h"

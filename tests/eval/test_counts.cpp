@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "eval/columns/removal_tally.h"
-#include "eval/erasor/frame.h"
+#include "eval/erasor/maps/accumulate.h"
 #include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
 

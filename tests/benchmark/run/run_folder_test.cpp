@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/run/folder/folder_lock.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
