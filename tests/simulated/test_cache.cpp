@@ -15,7 +15,6 @@
 #include "core/files/file_lock.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
-#include "datasets/simulation/scene/scene_writer.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/simulated/scenes.h"
@@ -90,7 +89,7 @@ TEST_CASE("A scene of the cache that is not what was written there is made again
        [&] { fs::copy_file(scan, folder / "velodyne/000003.bin"); }},
       {"sequence.json is missing", [&] { fs::remove(folder / "sequence.json"); }},
       // As earlier versions left it.
-      {"manifest.json is missing", [&] { fs::remove(folder / simulated::kManifestName); }},
+      {"manifest.json is missing", [&] { fs::remove(folder / "manifest.json"); }},
       {"manifest.json is damaged",
        [&] {
          fs::resize_file(folder / "manifest.json", 0);
