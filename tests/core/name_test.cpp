@@ -96,7 +96,7 @@ TEST_CASE("a terminal gets the program's colours and no other sequence") {
   if (terminal == nullptr) return;
   ::setenv("TERM", "xterm", 1);
   ::unsetenv("NO_COLOR");
-  const std::string red = coloured("red", TerminalColour::kBad, terminal);
+  const std::string red = in_red("red", terminal);
   CHECK(red != "red");
   CHECK(terminal_text(red + "\n", terminal) == red + "\n");
   CHECK(terminal_text("\x1b[8mhidden\x1b[2J\x1b[31mx", terminal) == " [8mhidden [2J [31mx");

@@ -24,17 +24,13 @@ struct RunFlags {
   bool explain = false, in_process = false, quiet = false;
 };
 
-std::string red(const std::string& text) {
-  return coloured(text, TerminalColour::kBad, stderr);
-}
-
 void report_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
-    print_error(red("raymoval: cell failed:") + " " + failure);
+    print_error(in_red("raymoval: cell failed:", stderr) + " " + failure);
   }
   for (const std::string& line : summary.lost_scans) print_warning(line);
   for (const std::string& problem : summary.controls) {
-    print_error(red("raymoval: controls have wrong scores:") + " " + problem);
+    print_error(in_red("raymoval: controls have wrong scores:", stderr) + " " + problem);
   }
   if (collect && !summary.missing.empty()) {
     print_error("raymoval: cells are missing: " + join(summary.missing));
