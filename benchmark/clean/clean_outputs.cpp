@@ -14,7 +14,6 @@
 #include "benchmark/clean/outputs/output_folder.h"
 #include "benchmark/clean/outputs/scan_folder.h"
 #include "benchmark/clean/rows/map_rows.h"
-#include "benchmark/clean/rows/voxel_rows.h"
 #include "benchmark/picture/canvas/colours.h"
 #include "benchmark/picture/maps/map_picture.h"
 #include "benchmark/picture/maps/top_down.h"

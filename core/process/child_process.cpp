@@ -24,7 +24,6 @@
 #include <utility>
 
 #include "core/files/descriptor.h"
-#include "core/process/family_memory.h"
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/process/subreaper_scope.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the memory of several processes is. 1 MiB is 2^20 bytes.
-#include "core/process/family_memory.h"
+#include "core/process/process_family.h"
 
 #include <sys/mman.h>
 #include <sys/wait.h>
