@@ -2,7 +2,6 @@
 #include "benchmark/clean/clean_outputs.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -30,22 +29,16 @@
 namespace raymoval {
 namespace {
 
-/// Which points a map has.
-struct MapContent {
-  bool kept = true;
-  bool removed = false;
-  bool labelled = false;  ///< With the field of `labelled_layout`.
-};
-
-/// A map in the world frame. With a voxel size it holds a row for each occupied cell, so that
-/// memory is bounded by the map. Without one it passes rows on as they come, and memory is bounded
-/// by a scan.
+/// The kept or the removed points in the world frame. With a voxel size it holds a row for each
+/// occupied cell, so that memory is bounded by the map. Without one it passes rows on as they come,
+/// and memory is bounded by a scan.
 class MapOutput : public CleanOutput {
  public:
-  /// @param layout of all rows, without a label
+  /// @param mask of the points that it has: 0 = kept, 1 = removed
+  /// @param layout of all rows
   /// @param voxel_size in metres; 0 keeps every point
   /// @throws UsageError, DataError as `PointRecordWriter`
-  MapOutput(const std::filesystem::path& path, const RecordLayout& layout, MapContent content,
+  MapOutput(const std::filesystem::path& path, const RecordLayout& layout, std::uint8_t mask,
             double voxel_size, const Eigen::Vector3d& voxel_origin);
 
   void add(const CleanedScan& scan) override;
@@ -54,51 +47,19 @@ class MapOutput : public CleanOutput {
   [[nodiscard]] std::uint64_t points() const override { return points_; }
 
  private:
-  /// The kept points or the removed points.
-  struct Side {
-    std::uint8_t mask;
-    std::unique_ptr<VoxelRows> cells;
-  };
-  void pass_on(const CleanedScan& scan);
   void write(const ScanRows& rows);
-  [[nodiscard]] ScanRows with_label(const ScanRows& rows,
-                                    const std::vector<std::uint8_t>& removed) const;
 
   PointRecordWriter file_;
-  RecordLayout layout_;  ///< Of the written rows.
-  bool labelled_;
-  std::vector<Side> sides_;
-  bool has_cells_;
+  std::uint8_t mask_;
+  std::optional<VoxelRows> cells_;
   std::uint64_t points_ = 0;
 };
 
-/// `layout` with a field added at its end: 9 = kept, 251 = removed. Its name is `label`, or
-/// `raymoval_label` if `layout` already has a field `label`.
-RecordLayout labelled_layout(const RecordLayout& layout) {
-  return layout_with_field(layout, "label", 'U', sizeof(std::uint16_t));
-}
-
 MapOutput::MapOutput(const std::filesystem::path& path, const RecordLayout& layout,
-                     MapContent content, double voxel_size, const Eigen::Vector3d& voxel_origin)
-    : file_(path),
-      layout_(content.labelled ? labelled_layout(layout) : layout),
-      labelled_(content.labelled),
-      has_cells_(voxel_size > 0.0) {
-  file_.start(layout_);
-  const auto add_side = [&](std::uint8_t mask) {
-    sides_.push_back({mask, has_cells_
-                                ? std::make_unique<VoxelRows>(layout, voxel_size, voxel_origin)
-                                : nullptr});
-  };
-  if (content.kept) add_side(0);
-  if (content.removed) add_side(1);
-}
-
-ScanRows MapOutput::with_label(const ScanRows& rows,
-                               const std::vector<std::uint8_t>& removed) const {
-  return rows_with_field(rows, layout_, [&](std::size_t i) -> std::uint16_t {
-    return removed[i] != 0 ? kRemovedLabel : kKeptLabel;
-  });
+                     std::uint8_t mask, double voxel_size, const Eigen::Vector3d& voxel_origin)
+    : file_(path), mask_(mask) {
+  file_.start(layout);
+  if (voxel_size > 0.0) cells_.emplace(layout, voxel_size, voxel_origin);
 }
 
 void MapOutput::write(const ScanRows& rows) {
@@ -106,44 +67,24 @@ void MapOutput::write(const ScanRows& rows) {
   file_.add(rows.rows);
 }
 
-void MapOutput::pass_on(const CleanedScan& scan) {
-  const auto is_chosen = [this](std::uint8_t mask) {
-    return std::any_of(sides_.begin(), sides_.end(),
-                       [mask](const Side& side) { return side.mask == mask; });
-  };
-  const std::array<std::uint8_t, 2> sides = {is_chosen(0), is_chosen(1)};
+void MapOutput::add(const CleanedScan& scan) {
+  if (cells_) {
+    for (std::size_t i = 0; i < scan.mask.size(); ++i) {
+      if (scan.mask[i] == mask_) cells_->add(scan.rows, i);
+    }
+    return;
+  }
   std::vector<std::uint8_t> chosen(scan.mask.size());
   std::transform(scan.mask.begin(), scan.mask.end(), chosen.begin(),
-                 [&](std::uint8_t mask) { return mask > 1 ? std::uint8_t{0} : sides[mask]; });
-  const auto count = std::count(chosen.begin(), chosen.end(), 1);
+                 [this](std::uint8_t mask) { return mask == mask_ ? 1 : 0; });
+  const auto count = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), 1));
   if (count == 0) return;
-  if (!labelled_ && static_cast<std::size_t>(count) == chosen.size()) return write(scan.rows);
-  ScanRows rows{scan.rows.rows.chosen(chosen), {}};
-  std::vector<std::uint8_t> removed;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (chosen[i] == 0) continue;
-    if (labelled_) removed.push_back(scan.mask[i]);
-  }
-  write(labelled_ ? with_label(rows, removed) : rows);
-}
-
-void MapOutput::add(const CleanedScan& scan) {
-  if (!has_cells_) return pass_on(scan);
-  for (const Side& side : sides_) {
-    for (std::size_t i = 0; i < scan.mask.size(); ++i) {
-      if (scan.mask[i] == side.mask) side.cells->add(scan.rows, i);
-    }
-  }
+  if (count == chosen.size()) return write(scan.rows);
+  write({scan.rows.rows.chosen(chosen), {}});
 }
 
 void MapOutput::finish() {
-  for (const Side& side : sides_) {
-    if (!has_cells_) break;
-    side.cells->take([&](const ScanRows& piece) {
-      const std::vector<std::uint8_t> removed(piece.world.size(), side.mask);
-      write(labelled_ ? with_label(piece, removed) : piece);
-    });
-  }
+  if (cells_) cells_->take([this](const ScanRows& piece) { write(piece); });
   file_.finish();
 }
 
@@ -303,18 +244,12 @@ bool is_map(const OutputPath& output) {
   return output.kind == OutputKind::kCloud;
 }
 
-MapContent content_of(const OutputPath& output) {
-  if (output.option == "--dynamic") return {false, true, false};
-  if (output.option == "--labelled") return {true, true, true};
-  return {};
-}
-
 /// @throws UsageError if the confidence is requested but no output can hold it
 void check_confidence(const std::vector<OutputPath>& outputs, const CleanWriting& writing) {
   if (!writing.confidence || std::any_of(outputs.begin(), outputs.end(), is_map)) return;
   throw UsageError(
       "--confidence has no effect: it is a field of maps, and none is written. Name one with -o, "
-      "or with --labelled to have all points; or leave it out.");
+      "or leave it out.");
 }
 
 }  // namespace
@@ -359,12 +294,11 @@ void CleanOutputs::note_losses(const OutputPath& output, const RecordLayout& lay
 
 void CleanOutputs::add_map(const OutputPath& output, const CleanWriting& writing,
                            const Eigen::Vector3d& voxel_origin) {
-  const MapContent content = content_of(output);
-  const RecordLayout layout = content.labelled ? labelled_layout(layout_) : layout_;
+  const std::uint8_t mask = output.option == "--dynamic" ? 1 : 0;
   if (rows_->is_widened()) check_coordinates(output.path, Coordinates::kDouble);
-  note_losses(output, layout);
+  note_losses(output, layout_);
   auto map =
-      std::make_unique<MapOutput>(output.path, layout_, content, writing.voxel_size, voxel_origin);
+      std::make_unique<MapOutput>(output.path, layout_, mask, writing.voxel_size, voxel_origin);
   if (first_map_ == nullptr) first_map_ = map.get();
   outputs_.push_back(std::move(map));
 }

@@ -35,7 +35,6 @@ struct OutputPath {
 struct CleanPaths {
   std::filesystem::path map = {};       ///< Cleaned map.
   std::filesystem::path removed = {};   ///< Removed points as a map.
-  std::filesystem::path labelled = {};  ///< All points, labelled as kept or removed.
   std::filesystem::path labels = {};    ///< Folder for a label file for each scan.
   std::filesystem::path scans = {};     ///< Folder of scans without removed points.
   std::filesystem::path page = {};      ///< HTML page with a 3-D view.
@@ -46,7 +45,7 @@ struct CleanPaths {
   [[nodiscard]] std::vector<OutputPath> all() const;
   /// The first map with a path; empty if there is none.
   [[nodiscard]] const std::filesystem::path& first_map() const {
-    return !map.empty() ? map : !removed.empty() ? removed : labelled;
+    return !map.empty() ? map : removed;
   }
 };
 

@@ -391,22 +391,24 @@ MapPrecision map_precision(const ScanSource& scans) {
   return precision;
 }
 
-RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size) {
+RecordLayout layout_with_confidence(const RecordLayout& layout) {
+  std::string name = "confidence";
   while (layout.find({name}) != nullptr) name = "raymoval_" + name;
   RecordLayout more = layout;
-  more.add(std::move(name), type, size);
+  more.add(std::move(name), 'F', sizeof(float));
   return more;
-}
-
-RecordLayout layout_with_confidence(const RecordLayout& layout) {
-  return layout_with_field(layout, "confidence", 'F', sizeof(float));
 }
 
 ScanRows rows_with_confidence(const ScanRows& rows, const RecordLayout& layout,
                               const std::string& steps) {
-  return rows_with_field(rows, layout, [&](std::size_t i) {
-    return confidence_of_steps(static_cast<std::uint8_t>(steps[i]));
-  });
+  const std::size_t size = rows.rows.size(), bytes = rows.rows.layout.row_bytes;
+  ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
+  for (std::size_t i = 0; i < size; ++i) {
+    const float value = confidence_of_steps(static_cast<std::uint8_t>(steps[i]));
+    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
+    std::memcpy(result.rows.row(i) + bytes, &value, sizeof value);
+  }
+  return result;
 }
 
 }  // namespace raymoval

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -120,26 +119,6 @@ class MapRows {
   std::vector<NormalFields> normals_;
   bool is_widened_ = false;
 };
-
-/// `layout` with a field added at its end. The field's name is `name`, or `raymoval_<name>` if
-/// `layout` already has a field `name`.
-/// @param type,size as those of RecordLayout::add
-RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size);
-
-/// Rows of such a layout: `rows`, each followed by the bytes of `value_of(row)`.
-/// @param layout of `layout_with_field`, whose size is that of a value
-template <class ValueOf>
-ScanRows rows_with_field(const ScanRows& rows, const RecordLayout& layout, ValueOf value_of) {
-  const std::size_t size = rows.rows.size();
-  ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
-  const std::size_t bytes = rows.rows.layout.row_bytes;
-  for (std::size_t i = 0; i < size; ++i) {
-    const auto value = value_of(i);
-    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
-    std::memcpy(result.rows.row(i) + bytes, &value, sizeof value);
-  }
-  return result;
-}
 
 /// `layout` with a float32 field added at its end: the method's confidence that a point moves, from
 /// 0 to 1. The field's name is `confidence`, or `raymoval_confidence` if `layout` already has a

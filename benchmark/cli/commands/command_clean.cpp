@@ -27,7 +27,7 @@ namespace raymoval {
 namespace {
 
 struct CleanFlags {
-  std::string path, output, dynamic, labelled, labels, scans, page, picture;
+  std::string path, output, dynamic, labels, scans, page, picture;
   std::string voxel, caution, edits;
   std::string method;
   std::vector<std::string> settings;
@@ -200,7 +200,6 @@ CleanPaths checked_paths(const CleanFlags& flags) {
   CleanPaths paths;
   paths.map = output_target(flags.output);
   paths.removed = output_target(flags.dynamic);
-  paths.labelled = output_target(flags.labelled);
   paths.labels = flags.labels;
   paths.scans = flags.scans;
   paths.page = output_target(flags.page);
@@ -330,9 +329,9 @@ ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Prog
   progress.set_context(writing.method + " on " + sequence.name);
   CleanOutputs outputs(paths, writing, sequence, progress, interrupt_flag());
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
-  const MethodAnswer answer =
-      edits ? edited_removals(flags, *edits, *sequence.scans, facts, progress)
-            : find_removals(flags, method, sequence, paths, progress);
+  const MethodAnswer answer = edits
+                                  ? edited_removals(flags, *edits, *sequence.scans, facts, progress)
+                                  : find_removals(flags, method, sequence, paths, progress);
   const MaskStore& masks = answer.masks;
   write_outputs(*sequence.scans, answer, facts, outputs, progress);
   facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -370,8 +369,6 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
               "in " +
                   join(written_extensions(), ", "));
   options.add("--dynamic", "FILE", flags.dynamic, "Also write the removed points as a map");
-  options.add("--labelled", "FILE", flags.labelled,
-              "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
   options.add_flag("--confidence", flags.confidence,
                    "Add a field `confidence` to maps: the estimated probability, from 0 to 1, that "
                    "a point moves");

@@ -53,14 +53,10 @@ TEST_CASE("Each map has its points, with all fields") {
     CleanPaths paths;
     paths.map = folder.path() / ("map" + std::string(extension));
     paths.removed = folder.path() / ("removed" + std::string(extension));
-    paths.labelled = folder.path() / ("labelled" + std::string(extension));
     CHECK(write(paths, four_points()).empty());
     CHECK(column(read_records(paths.map), "ring") == std::vector<double>{0, 1});
     CHECK(column(read_records(paths.removed), "ring") == std::vector<double>{2, 3});
-    const PointRecords labelled = read_records(paths.labelled);
-    CHECK(column(labelled, "ring") == std::vector<double>{0, 1, 2, 3});
-    CHECK(column(labelled, "label") == std::vector<double>{9, 9, 251, 251});
-    CHECK(column(labelled, "x")[2] == 15.0);
+    CHECK(column(read_records(paths.removed), "x")[0] == 15.0);
   }
 }
 
@@ -68,34 +64,10 @@ TEST_CASE("What is in no output is in no map") {
   const TemporaryFolder folder;
   CleanPaths paths;
   paths.map = folder.path() / "map.pcd";
-  paths.labelled = folder.path() / "labelled.pcd";
+  paths.removed = folder.path() / "removed.pcd";
   write(paths, four_points(), {}, {2, 0, 1, 2});
   CHECK(column(read_records(paths.map), "ring") == std::vector<double>{1});
-  CHECK(column(read_records(paths.labelled), "ring") == std::vector<double>{1, 2});
-}
-
-TEST_CASE("A field `label` of the input stays, and ours has another name") {
-  const TemporaryFolder folder;
-  RecordLayout layout = driver_layout();
-  layout.fields[4].name = "label";
-  CleanPaths paths;
-  paths.labelled = folder.path() / "map.pcd";
-  write(paths, four_points(layout));
-  const PointRecords rows = read_records(paths.labelled);
-  CHECK(column(rows, "label") == std::vector<double>{0, 1, 2, 3});
-  CHECK(column(rows, "raymoval_label") == std::vector<double>{9, 9, 251, 251});
-}
-
-TEST_CASE("A labelled map of voxels keeps what was removed apart") {
-  const TemporaryFolder folder;
-  CleanPaths paths;
-  paths.labelled = folder.path() / "map.pcd";
-  CleanWriting writing;
-  writing.voxel_size = 1000.0;
-  write(paths, four_points(), writing);
-  const PointRecords rows = read_records(paths.labelled);
-  CHECK(column(rows, "label") == std::vector<double>{9, 251, 251});
-  CHECK(column(rows, "x")[0] == Approx(10.2));
+  CHECK(column(read_records(paths.removed), "ring") == std::vector<double>{2});
 }
 
 TEST_CASE("A map of nothing is a whole file without points") {
