@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kSamples = 1000;  ///< Directions of a scan whose neighbours are searched.
 constexpr std::size_t kNeighbours = 6, kFewestSteps = 1000;
-constexpr double kLeastStep = 0.02 * kDegree;
+constexpr double kLeastNeighbourStep = 0.02 * kDegree;
 /// Share of level neighbours. Random neighbours have 0.13, a rosette up to 0.15, a spinning sensor
 /// 0.3 to 0.99.
 constexpr double kLeastLevel = 0.22;
@@ -64,7 +64,7 @@ void add_steps(const Directions& scan, std::vector<Step>& steps) {
     tree.find_nearest(rays[i].data(), near, squares);
     std::size_t found = 0;
     for (std::size_t k = 0; k < kSearched && found < kNeighbours; ++k) {
-      if (squares[k] < kLeastStep * kLeastStep) continue;
+      if (squares[k] < kLeastNeighbourStep * kLeastNeighbourStep) continue;
       steps.push_back({rays[i], (rays[near[k]] - rays[i]).normalized()});
       ++found;
     }

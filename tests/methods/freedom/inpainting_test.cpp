@@ -33,10 +33,6 @@ void dig(HoleImage& image, int row_from, int row_to, int column_from, int column
   }
 }
 
-int value(const HoleImage& image, int row, int column) {
-  return image.values[static_cast<std::size_t>(row * image.columns + column)];
-}
-
 /// Telea's algorithm as in OpenCV, in its simplest form: each step searches all pixels for the
 /// pixel that the front reaches next.
 class SlowInpainting {

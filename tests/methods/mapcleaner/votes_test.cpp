@@ -17,15 +17,6 @@ Eigen::Vector3f at(double azimuth, double elevation, double range) {
   return (range * toy::direction(azimuth * kDegree, elevation * kDegree)).cast<float>();
 }
 
-int pixel_of(const ImageFrame& frame, const Eigen::Vector3f& point) {
-  ImageFrame::Batch batch;
-  batch.x[0] = point.x();
-  batch.y[0] = point.y();
-  batch.z[0] = point.z();
-  frame.project(batch, 1);
-  return frame.pixel_of(batch, 0);
-}
-
 }  // namespace
 
 TEST_CASE("mapcleaner: single angles are those of the library") {
