@@ -54,7 +54,8 @@ std::string conversion_text(const std::filesystem::path& path) {
            "PLY -O in." +
            ending + " -SAVE_CLOUDS.";
   };
-  static const std::string kPdal = " is not read or written. PDAL converts it to PLY and back: pdal ";
+  static const std::string kPdal =
+      " is not read or written. PDAL converts it to PLY and back: pdal ";
   static const std::string kAsPly =
       " out.ply --writers.ply.storage_mode=\"little endian\". If the points of a merged map name "
       "their scan, scan_#.ply in place of out.ply, and groupby "
@@ -66,7 +67,8 @@ std::string conversion_text(const std::filesystem::path& path) {
   static const std::map<std::string, std::string> texts = {
       {".las", "LAS" + kPdal + "translate in.las" + kAsPly},
       {".laz", "LAZ" + kPdal + "translate in.laz" + kAsPly},
-      {".npz", "archives of arrays are not read. Save an array by itself: numpy.save(\"out.npy\", "
+      {".npz",
+       "archives of arrays are not read. Save an array by itself: numpy.save(\"out.npy\", "
        "numpy.load(\"in.npz\")[\"points\"])."},
       {".gz", "compressed files are not read. Decompress them: gunzip in.gz."},
       {".e57", "E57 is not read. " + each_scan("e57")},

@@ -93,8 +93,8 @@ CloudHeader parse_pcd_header(std::string_view bytes, const std::filesystem::path
 
 /// The header of a PLY file.
 /// @param bytes the file, or at least its whole header
-/// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements with items before
-///   the vertices
+/// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements with items
+///   before the vertices
 CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path);
 
 /// The positions and intensities of the points of a PCD or PLY file. In ASCII files, other fields
