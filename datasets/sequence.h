@@ -59,9 +59,6 @@ struct OpenContext {
   int threads = 1;
   Progress* progress = nullptr;
   const std::atomic<bool>* cancel = nullptr;
-  /// Whether a scene's files in the cache are compared with their hashes, not only by names and
-  /// sizes. False if the loaded data is compared with a fingerprint.
-  bool check_content = true;
 };
 
 /// An opened sequence: the sources of its scans and labels, and how to read them.

@@ -157,7 +157,6 @@ std::vector<OutputPath> CleanPaths::all() const {
   const OutputKind maps = OutputKind::kCloud;
   std::vector<OutputPath> outputs = {{"-o", map, maps},
                                      {"--dynamic", removed, maps},
-                                     {"--labelled", labelled, maps},
                                      {"--labels", labels, OutputKind::kLabels},
                                      {"--scans", scans, OutputKind::kScans},
                                      {"--html", page, OutputKind::kPage},

@@ -33,20 +33,19 @@ struct OutputPath {
 
 /// The paths of all outputs of `raymoval clean`. An output with an empty path is not written.
 struct CleanPaths {
-  std::filesystem::path map = {};       ///< Cleaned map.
-  std::filesystem::path removed = {};   ///< Removed points as a map.
-  std::filesystem::path labelled = {};  ///< All points, labelled as kept or removed.
-  std::filesystem::path labels = {};    ///< Folder for a label file for each scan.
-  std::filesystem::path scans = {};     ///< Folder of scans without removed points.
-  std::filesystem::path page = {};      ///< HTML page with a 3-D view.
-  std::filesystem::path picture = {};   ///< PNG from above.
-  bool overwrite = false;               ///< Whether outputs may exist already.
+  std::filesystem::path map = {};      ///< Cleaned map.
+  std::filesystem::path removed = {};  ///< Removed points as a map.
+  std::filesystem::path labels = {};   ///< Folder for a label file for each scan.
+  std::filesystem::path scans = {};    ///< Folder of scans without removed points.
+  std::filesystem::path page = {};     ///< HTML page with a 3-D view.
+  std::filesystem::path picture = {};  ///< PNG from above.
+  bool overwrite = false;              ///< Whether outputs may exist already.
 
   /// The outputs with a path, the most important first.
   [[nodiscard]] std::vector<OutputPath> all() const;
   /// The first map with a path; empty if there is none.
   [[nodiscard]] const std::filesystem::path& first_map() const {
-    return !map.empty() ? map : !removed.empty() ? removed : labelled;
+    return !map.empty() ? map : removed;
   }
 };
 

@@ -99,7 +99,7 @@ std::atomic<bool> memory_ran_out = false;
 
 int show_error(const std::string& message, ExitCode code) {
   const char* internal = code == ExitCode::kInternal ? "internal error, please report it: " : "";
-  print_error(coloured("raymoval:", TerminalColour::kBad, stderr) + " " + internal + message);
+  print_error(in_red("raymoval:", stderr) + " " + internal + message);
   return static_cast<int>(code);
 }
 

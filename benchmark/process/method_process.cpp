@@ -26,15 +26,13 @@
 #include "core/process/proc_files.h"
 #include "core/process/process_family.h"
 #include "core/progress.h"
-#include "core/scan/packed_mask.h"
+#include "core/scan/mask_store.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
 
-// LoadedData without the names of the scans, which the parent already has.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadedData, settings, scans, labels, change)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MethodOptions, threads, with_reasons, with_confidence)
 
 namespace {
@@ -72,10 +70,9 @@ struct AnswerHead {
   std::string digest;               ///< Of the masks.
   std::vector<std::string> reasons;
   bool has_confidence = false;
-  std::vector<LoadedData> loaded;  ///< One or none.
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AnswerHead, status, reason, measured, points, digest, reasons,
-                                   has_confidence, loaded)
+                                   has_confidence)
 
 /// Writes a file piece by piece.
 class MessageWriter {
@@ -169,11 +166,10 @@ void write_answer(int file, const MethodAnswer& answer) {
   AnswerHead head{status_name(answer.status), answer.reason,
                   to_json(answer.measured),   {},
                   mask_digest(answer.masks),  answer.reasons.sentences,
-                  !answer.confidence.empty(), {}};
+                  !answer.confidence.empty()};
   for (std::size_t i = 0; i < answer.masks.size(); ++i) {
     head.points.push_back(answer.masks.point_count(i));
   }
-  if (answer.loaded) head.loaded.push_back(*answer.loaded);
   MessageWriter writer(file);
   writer.put_json(head);
   for (std::size_t i = 0; i < answer.masks.size(); ++i) {
@@ -197,7 +193,6 @@ MethodAnswer read_answer(int file) {
   answer.status = *status;
   answer.reason = head.reason;
   answer.measured = read_as<Measurement>(head.measured, "the answer");
-  if (!head.loaded.empty()) answer.loaded = head.loaded.front();
   answer.masks = MaskStore(head.points.size());
   for (std::size_t i = 0; i < head.points.size(); ++i) {
     const std::uint64_t bytes = head.points[i] / 8 + (head.points[i] % 8 != 0 ? 1 : 0);
@@ -327,13 +322,10 @@ void serve_method(const MethodRegistry& registry) {
   progress.set_context(order.progress_context);
   MethodAnswer answer;
   try {
-    // The parent compares the data that is loaded here with the data that it has checked.
     Sequence sequence = open_sequence(order.place.path, order.place.options,
-                                      {order.options.threads, &progress, nullptr, false});
+                                      {order.options.threads, &progress, nullptr});
     if (sequence.up_choice) sequence.up_choice = std::make_shared<const UpChoice>(order.up);
-    const WatchedSequence data = watched(std::move(sequence));
-    answer = run_method({&data.sequence, &order.request, order.options, &progress});
-    answer.loaded = data.loaded();
+    answer = run_method({&sequence, &order.request, order.options, &progress});
   } catch (const Error& error) {
     answer.status = CellStatus::kBadData;
     answer.reason = error.what();

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "benchmark/result/cell.h"
@@ -14,7 +13,6 @@
 #include "core/progress.h"
 #include "core/scan/confidence_store.h"
 #include "core/scan/mask_store.h"
-#include "datasets/reading/loaded_data.h"
 #include "methods/remover.h"
 
 namespace raymoval {
@@ -50,8 +48,6 @@ struct MethodAnswer {
   Measurement measured;
   Reasons reasons = {};             ///< Empty if not requested, or if the method has none.
   ConfidenceStore confidence = {};  ///< The same.
-  /// The data that was read, if the method ran in its own process.
-  std::optional<LoadedData> loaded = std::nullopt;
 };
 
 /// Runs a remover in this process and checks its answer. This is the one place where methods run,

@@ -12,7 +12,6 @@
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/result/removals/removal_files.h"
 #include "core/files/file_kind.h"
-#include "methods/external/external.h"
 
 namespace raymoval {
 namespace {
@@ -111,30 +110,11 @@ MethodAnswer answer_of_method(ScoredSequence& scored, const MethodTask& task) {
   return known ? answer_of_control(scored, *known) : run_method_in_child(task);
 }
 
-/// The difference of an external method, whose files may change at any time, from the cell's key;
-/// else empty.
-std::string changed_program(const MethodEntry& entry) {
-  if (entry.manifest.empty()) return "";
-  try {
-    const std::string now = external_entry(entry.manifest).version;
-    if (now == entry.version) return "";
-    return fmt::format(
-        "{}: the manifest or files of the program changed during the run (version {}, now {}). Run "
-        "again; 'files' of the manifest must not name what the program itself writes.",
-        entry.manifest, entry.version, now);
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
 /// Scores an answer. After a fault of the method or the data, the cell has no result.
 void score_answer(ScoredSequence& scored, const MethodTask& task, const MethodAnswer& answer,
                   Cell& cell) {
   try {
     score_masks(scored, task, answer, cell);
-    // Scoring reads the data once more.
-    const std::string change = scored.data_change(nullptr);
-    if (!change.empty()) cell.fail(CellStatus::kBadData, change);
   } catch (const Cancelled&) {
     throw;
   } catch (const DataError& error) {
@@ -144,25 +124,6 @@ void score_answer(ScoredSequence& scored, const MethodTask& task, const MethodAn
   } catch (const std::exception& error) {
     cell.fail(CellStatus::kFailed, error.what());
   }
-}
-
-/// Runs the method, in this process or in a child. The status is only kOk if the method and the
-/// data that it read are those of the key. @throws Cancelled
-MethodAnswer method_answer(ScoredSequence& scored, const MethodTask& task) {
-  MethodAnswer answer;
-  answer.status = CellStatus::kFailed;
-  answer.reason = changed_program(*task.request->method.entry);
-  if (!answer.reason.empty()) return answer;
-  answer = answer_of_method(scored, task);
-  if (answer.status != CellStatus::kOk) return answer;
-  answer.reason = changed_program(*task.request->method.entry);
-  if (!answer.reason.empty()) answer.status = CellStatus::kFailed;
-  const std::string change = scored.data_change(answer.loaded ? &*answer.loaded : nullptr);
-  if (!change.empty()) {
-    answer.status = CellStatus::kBadData;
-    answer.reason = change;
-  }
-  return answer;
 }
 
 }  // namespace
@@ -185,7 +146,7 @@ Cell execute_cell(ScoredSequence& scored, const MethodTask& task,
   Cell cell{task.sequence->name, task.request->name, cell_key(identity)};
   cell.method = std::move(identity.method);
   cell.data = std::move(identity.data);
-  const MethodAnswer answer = method_answer(scored, task);
+  const MethodAnswer answer = answer_of_method(scored, task);
   cell.output_tail = answer.output_tail;
   if (answer.status != CellStatus::kOk) {
     cell.fail(answer.status, answer.reason);

@@ -5,7 +5,6 @@
 
 #include "benchmark/result/checks/controls_check.h"
 #include "benchmark/result/run_record_json.h"
-#include "benchmark/run/folder/folder_lock.h"
 #include "benchmark/run/folder/run_folder.h"
 #include "benchmark/run/sequence_run.h"
 

@@ -8,6 +8,7 @@
 #include "benchmark/process/split_sensors.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/reading/fingerprint.h"
 #include "datasets/registration/pose_fit.h"
 #include "eval/points/labelled_voxels.h"
 #include "eval/scan_passes.h"
@@ -82,8 +83,8 @@ std::string pose_fit_line(const std::optional<PoseFitRecord>& fit) {
 
 ScoredSequence::ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests,
                                int threads, Progress* progress)
-    : watched_(watched(std::move(sequence))), threads_(threads), progress_(progress) {
-  const Sequence& opened = watched_.sequence;
+    : sequence_(std::move(sequence)), threads_(threads), progress_(progress) {
+  const Sequence& opened = sequence_;
   check_has_labels(opened);
   if (opened.scans->size() == 0) {
     throw DataError("sequence '" + opened.name + "' has no scan in the chosen frames (" +
@@ -103,7 +104,6 @@ const std::string& ScoredSequence::data_fingerprint() {
   moving_points_ = MaskStore(read.scans->size());
   read.labels = std::make_shared<NotedLabels>(read.labels, read.label_rule, moving_points_);
   fingerprint_ = fingerprint(read, threads_);
-  loaded_ = watched_.loaded();
   const bool calibrated =
       std::any_of(protocols_.begin(), protocols_.end(),
                   [](const OpenedProtocol& one) { return one.protocol->reads_calibration(); });
@@ -127,13 +127,6 @@ std::optional<PoseFitRecord> ScoredSequence::measure_pose_fit(
 const MaskStore& ScoredSequence::moving_points() {
   (void)data_fingerprint();
   return moving_points_;
-}
-
-std::string ScoredSequence::data_change(const LoadedData* loaded) {
-  (void)data_fingerprint();
-  LoadedData expected = loaded_;
-  expected.change = watched_.record->data().change;
-  return changed_data(expected, loaded != nullptr ? *loaded : loaded_);
 }
 
 EvaluationInput ScoredSequence::input() const {

@@ -12,7 +12,7 @@
 #include "core/progress.h"
 #include "core/scan/confidence_store.h"
 #include "core/scan/local_frame.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/sequence.h"
 #include "eval/columns/columns.h"
 #include "eval/confidence/reliability.h"
 #include "eval/points/cloud_masks.h"
@@ -39,8 +39,7 @@ class ScoredSequence {
   ScoredSequence(Sequence sequence, const std::vector<ProtocolRequest>& requests, int threads,
                  Progress* progress);
 
-  /// Its sources throw DataError for a scan that has changed since it was first read.
-  [[nodiscard]] const Sequence& sequence() const { return watched_.sequence; }
+  [[nodiscard]] const Sequence& sequence() const { return sequence_; }
   [[nodiscard]] int threads() const { return threads_; }
   [[nodiscard]] Progress* progress() const { return progress_; }
   [[nodiscard]] std::size_t protocol_count() const { return protocols_.size(); }
@@ -58,11 +57,6 @@ class ScoredSequence {
   /// The masks of an answer that removes exactly the moving points, read together with the
   /// fingerprint. Their sizes are those of the scans. @throws DataError as `data_fingerprint`
   [[nodiscard]] const MaskStore& moving_points();
-
-  /// The part of the data that changed between two readings, by this object or by a method in its
-  /// own process; empty if none.
-  /// @param loaded the data that the method read; null if it ran in this process
-  [[nodiscard]] std::string data_change(const LoadedData* loaded);
 
   /// Builds the data that protocols derive from scans and labels, if not done yet. Afterwards
   /// several threads may score at once.
@@ -95,14 +89,13 @@ class ScoredSequence {
   };
   [[nodiscard]] EvaluationInput input() const;
 
-  WatchedSequence watched_;
+  Sequence sequence_;
   /// The scans as protocols get them: from `lattice_origin`.
   std::unique_ptr<const LocalFrameSource> scored_scans_;
   int threads_;
   Progress* progress_;
   std::string fingerprint_;
   MaskStore moving_points_;
-  LoadedData loaded_;  ///< The data of the fingerprint.
   std::vector<OpenedProtocol> protocols_;
 };
 

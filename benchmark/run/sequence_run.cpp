@@ -265,7 +265,7 @@ void SequenceRuns::finish(CellIndex index, Cell cell, bool was_there) {
   if (was_there) ++summary_.reused;
   std::string line = lines_.line(summary_.cells, cell, was_there);
   if (!cell.ok()) {
-    line = coloured(line, TerminalColour::kBad, stderr);
+    line = in_red(line, stderr);
     summary_.failures.push_back(cell.title() + ": " + cell.reason);
   }
   finished_[suite_.place(index)] = std::move(cell);

@@ -13,8 +13,7 @@ namespace raymoval {
 struct ChildLimits {
   double seconds = 0.0;     ///< Wall time from its start.
   double memory_mib = 0.0;  ///< Of the child and its descendants, see `FamilyMemory`.
-  /// Of the files below its working folder on the disk, roughly, and of deleted ones that it holds
-  /// open there.
+  /// Of the files below its working folder on the disk, roughly.
   double folder_mib = 0.0;
 };
 

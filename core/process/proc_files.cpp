@@ -114,21 +114,6 @@ std::vector<pid_t> children_of(pid_t process) {
   return children;
 }
 
-std::vector<OpenFile> open_files(pid_t process) {
-  std::vector<OpenFile> files;
-  const fs::path folder = proc_folder(process) / "fd";
-  for (const std::string& name : names_now(folder)) {
-    OpenFile file{(folder / name).string(), {}};
-    if (::stat(file.path.c_str(), &file.status) != 0) continue;
-    if (S_ISREG(file.status.st_mode)) files.push_back(std::move(file));
-  }
-  return files;
-}
-
-double size_mib(const struct stat& status) {
-  return static_cast<double>(status.st_blocks) / 2048.0;
-}
-
 double machine_memory_mib() {
   double mib = proc_mib("/proc/meminfo", "MemTotal").value_or(0.0);
   for (const char* path :

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sys/stat.h>
 #include <sys/types.h>
 
 #include <filesystem>
@@ -46,17 +45,6 @@ std::vector<pid_t> all_processes();
 std::vector<pid_t> children_of(pid_t process);
 /// The same, from the parents of all processes.
 std::vector<pid_t> children_by_parent(pid_t process);
-
-/// A regular file that a process holds open; it may be renamed or deleted.
-struct OpenFile {
-  std::string path;  ///< Below /proc; it leads to the file itself.
-  struct stat status;
-};
-/// The open files of a process that this process may read.
-std::vector<OpenFile> open_files(pid_t process);
-
-/// Size of a file on its disk or in memory.
-double size_mib(const struct stat& status);
 
 /// The memory of the machine in MiB, or of the control group if that has less. It is 0 if it is
 /// unknown.

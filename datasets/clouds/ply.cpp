@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <array>
-#include <cstring>
 #include <utility>
 
 #include "core/error.h"
@@ -33,28 +31,10 @@ const PlyType* find_type(std::string_view name) {
   return nullptr;
 }
 
-/// A property of an element before the vertices.
-struct Skipped {
-  std::size_t bytes = 0;                ///< Of one value.
-  const PlyType* count_type = nullptr;  ///< Of a list: the type of its count.
-};
-
-struct SkippedElement {
-  std::uint64_t items = 0;
-  std::vector<Skipped> properties;
-
-  [[nodiscard]] bool has_list() const {
-    for (const Skipped& property : properties) {
-      if (property.count_type != nullptr) return true;
-    }
-    return false;
-  }
-};
-
 class PlyHeaderParser {
  public:
   PlyHeaderParser(std::string_view bytes, const std::filesystem::path& path)
-      : bytes_(bytes), path_(path), lines_(bytes, path, "end_header") {}
+      : path_(path), lines_(bytes, path, "end_header") {}
 
   CloudHeader parse() {
     const auto magic = lines_.next();
@@ -74,7 +54,6 @@ class PlyHeaderParser {
     header_.body_line = lines_.line() + 1;
     header_.width = header_.points;
     check_fields(header_, path_);
-    for (const SkippedElement& element : before_) skip(element);
     return std::move(header_);
   }
 
@@ -108,96 +87,30 @@ class PlyHeaderParser {
     }
     const auto count = lines_.number<std::uint64_t>(words[2], 0, kMostCloudPoints);
     if (vertex) {
-      where_ = Where::kVertices;
       header_.points = count;
-    } else if (vertices_seen) {
-      where_ = Where::kBehind;
+      where_ = Where::kVertices;
+    } else if (vertices_seen || count == 0) {
+      where_ = vertices_seen ? Where::kBehind : Where::kBefore;
     } else {
-      where_ = Where::kBefore;
-      before_.push_back({count, {}});
+      lines_.fail("the element '" + std::string(words[1].substr(0, 40)) +
+                  "' is before the vertices. CloudCompare saves the file with the vertices first.");
     }
   }
 
   void read_property(const std::vector<std::string_view>& words) {
     if (where_ == Where::kNoElement) lines_.fail("a property before any element.");
-    if (where_ == Where::kBehind) return;
+    if (where_ != Where::kVertices) return;
     const PlyType* type = words.size() == 3 ? find_type(words[1]) : nullptr;
-    if (where_ == Where::kVertices) {
-      if (type == nullptr) {
-        lines_.fail(
-            "a vertex property has to be 'property TYPE NAME' with a plain number type (no list).");
-      }
-      return header_.add(std::string(words[2]), type->type, type->size, 1);
-    }
-    const PlyType* count_type = nullptr;
-    if (words.size() == 5 && words[1] == "list") {
-      count_type = find_type(words[2]);
-      type = find_type(words[3]);
-      if (count_type == nullptr || count_type->type == 'F') type = nullptr;
-    }
     if (type == nullptr) {
-      lines_.fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'.");
+      lines_.fail(
+          "a vertex property has to be 'property TYPE NAME' with a plain number type (no list).");
     }
-    before_.back().properties.push_back({static_cast<std::size_t>(type->size), count_type});
+    header_.add(std::string(words[2]), type->type, type->size, 1);
   }
 
-  /// Moves the beginning of the points behind the items of `element`.
-  void skip(const SkippedElement& element) {
-    if (header_.encoding == CloudEncoding::kAscii) return skip_lines(element.items);
-    if (!element.has_list()) {
-      std::uint64_t bytes = 0;
-      for (const Skipped& property : element.properties) bytes += property.bytes;
-      return skip_bytes(bytes, element.items);
-    }
-    for (std::uint64_t item = 0; item < element.items; ++item) {
-      for (const Skipped& property : element.properties) {
-        skip_bytes(property.bytes, property.count_type == nullptr ? 1 : list_count(property));
-      }
-    }
-  }
-
-  void skip_lines(std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count;) {
-      const std::size_t end = bytes_.find('\n', header_.body_offset);
-      if (end == std::string_view::npos) fail_truncated();
-      const std::string_view line = bytes_.substr(header_.body_offset, end - header_.body_offset);
-      i += line.find_first_not_of(" \t\r") == std::string_view::npos ? 0 : 1;
-      header_.body_offset = end + 1;
-      ++header_.body_line;
-    }
-  }
-
-  void skip_bytes(std::uint64_t size, std::uint64_t count) {
-    const std::uint64_t left = bytes_.size() - header_.body_offset;
-    if (size != 0 && count > left / size) fail_truncated();
-    header_.body_offset += size * count;
-  }
-
-  std::uint64_t list_count(const Skipped& property) {
-    std::array<char, 4> raw{};
-    const auto size = static_cast<std::size_t>(property.count_type->size);
-    const std::size_t at = header_.body_offset;
-    skip_bytes(size, 1);
-    std::memcpy(raw.data(), bytes_.data() + at, size);
-    if (header_.big_endian) std::reverse(raw.begin(), raw.begin() + property.count_type->size);
-    std::uint32_t count = 0;
-    std::memcpy(&count, raw.data(), sizeof count);
-    const bool below_zero = property.count_type->type == 'I' && (count >> (8 * size - 1)) != 0;
-    if (below_zero) fail_truncated();
-    return count;
-  }
-
-  [[noreturn]] void fail_truncated() const {
-    throw DataError(path_.string() +
-                    ": the file ends within the elements before its vertices; it looks truncated." +
-                    kRereadRemedy);
-  }
-
-  std::string_view bytes_;
   const std::filesystem::path& path_;
   HeaderLines lines_;
   CloudHeader header_;
-  std::vector<SkippedElement> before_;
   Where where_ = Where::kNoElement;
   bool format_seen_ = false;
 };

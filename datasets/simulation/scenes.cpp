@@ -11,10 +11,9 @@ namespace {
 
 Sequence open_scene(const std::string& path, const SequenceOptions& options,
                     const OpenContext& context) {
-  return open_semantickitti(
-      cached_simulation(parse_scene(path), default_cache_root(), context.threads, context.progress,
-                        context.cancel, context.check_content),
-      options, context);
+  return open_semantickitti(cached_simulation(parse_scene(path), default_cache_root(),
+                                              context.threads, context.progress, context.cancel),
+                            options, context);
 }
 
 }  // namespace

@@ -1,17 +1,160 @@
 // SPDX-License-Identifier: MIT
 #include "eval/dynamicmap/presence.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include "core/parallel.h"
+#include "eval/dynamicmap/fine_cells.h"
 #include "eval/dynamicmap/marked_cells.h"
-#include "eval/dynamicmap/undecided_points.h"
+#include "eval/lattice/cell_lattice.h"
 #include "eval/lattice/coarse_cells.h"
+#include "eval/lattice/ranked_bits.h"
+#include "eval/points/nearest_points.h"
 #include "eval/scan_passes.h"
 
 namespace raymoval::dynamicmap {
 namespace {
+
+/// Flagged points that have a kept point near but not in their fine cell, and the kept points
+/// around them, for a range of blocks at a time. The range begins with all blocks that are given.
+/// If there are too many points, its end moves down and the points beyond it are dropped. A later
+/// pass handles them.
+class UndecidedPoints {
+ public:
+  using Number = CellLattice::Number;
+
+  struct Map {
+    double distance;
+    const FineGrid& grid;
+    const CellLattice& blocks;
+    const FineBits& flagged;  ///< Cells whose flagged points are undecided.
+  };
+  struct Flagged {
+    Eigen::Vector3d point;
+    Number block;
+    std::uint32_t scan;
+    bool moving;
+  };
+  /// The points of one scan.
+  struct Found {
+    std::vector<Flagged> flagged;
+    std::vector<Eigen::Vector3d> kept;
+  };
+
+  /// @param map outlives this object
+  /// @param room bytes for points
+  UndecidedPoints(const Map& map, std::size_t room);
+
+  /// Begins with the blocks [first, last). The marks of `flagged` are complete now.
+  void begin(Number first, Number last);
+  /// Begins with those of them that are behind the last range. @return false if there is none
+  bool begin_next();
+
+  /// Whether the flagged points of a block are collected in this pass. It may be true for a block
+  /// that is dropped meanwhile; `add` checks again.
+  [[nodiscard]] bool has_turn(Number block) const { return block >= first_ && block < end_; }
+  /// Whether undecided flagged points may be near a block.
+  [[nodiscard]] bool is_near_flagged(Number block) const { return is_near_flagged_.test(block); }
+  /// Whether a kept point in this cell may be near a flagged one that is collected.
+  [[nodiscard]] bool is_wanted(const FineCell& cell, CellLattice::Cursor& cursor) const {
+    return map_.flagged.any_near(cell, map_.blocks, cursor, first_, end_);
+  }
+  void add(const Found& found);
+
+  /// Calls `present` for each collected flagged point that has a kept point within the distance,
+  /// and forgets all points.
+  void search(int threads, const std::function<void(const Flagged&)>& present);
+
+  /// Bytes of memory of the points and of their search.
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  bool narrow();
+
+  Map map_;
+  std::size_t room_;
+  Number first_ = 0;
+  std::atomic<Number> end_ = 0;
+  Number last_ = 0;             ///< Where the ranges end.
+  RankedBits is_near_flagged_;  ///< Of each block: it, or one beside it, is flagged.
+  std::vector<Flagged> flagged_;
+  std::vector<Eigen::Vector3d> kept_;
+};
+
+/// Memory of a kept point in the search tree.
+constexpr std::size_t kTreeBytes = 16;
+constexpr std::size_t kGrain = 4096;
+
+UndecidedPoints::UndecidedPoints(const Map& map, std::size_t room) : map_(map), room_(room) {}
+
+void UndecidedPoints::begin(Number first, Number last) {
+  is_near_flagged_ = RankedBits(map_.blocks.size());
+  CellLattice::Cursor cursor;
+  map_.blocks.for_each([&](Number number, VoxelKey block) {
+    if (map_.flagged.any(number)) set_blocks_around(block, map_.blocks, cursor, is_near_flagged_);
+  });
+  first_ = first;
+  end_ = last_ = last;
+}
+
+bool UndecidedPoints::begin_next() {
+  first_ = end_;
+  end_ = last_;
+  return first_ < end_;
+}
+
+void UndecidedPoints::add(const Found& found) {
+  for (const Flagged& point : found.flagged) {
+    if (has_turn(point.block)) flagged_.push_back(point);
+  }
+  kept_.insert(kept_.end(), found.kept.begin(), found.kept.end());
+  while (bytes() > room_ && narrow()) {
+  }
+}
+
+std::size_t UndecidedPoints::bytes() const {
+  return flagged_.size() * sizeof(Flagged) + kept_.size() * (sizeof(Eigen::Vector3d) + kTreeBytes);
+}
+
+/// Halves the flagged points by ending the range sooner. @return false if it is one block already
+bool UndecidedPoints::narrow() {
+  if (flagged_.empty() || end_ - first_ <= 1) return false;
+  std::vector<Number> blocks;
+  blocks.reserve(flagged_.size());
+  for (const Flagged& point : flagged_) blocks.push_back(point.block);
+  const auto middle = blocks.begin() + static_cast<std::ptrdiff_t>(blocks.size() / 2);
+  std::nth_element(blocks.begin(), middle, blocks.end());
+  const Number end = std::max(*middle, first_ + 1);
+  if (end >= end_) return false;
+  end_ = end;
+  std::erase_if(flagged_, [&](const Flagged& point) { return point.block >= end; });
+  CellLattice::Cursor cursor;
+  std::erase_if(kept_, [&](const Eigen::Vector3d& point) {
+    return !map_.flagged.any_near(map_.grid.cell_of(point), map_.blocks, cursor, first_, end);
+  });
+  flagged_.shrink_to_fit();
+  kept_.shrink_to_fit();
+  return true;
+}
+
+void UndecidedPoints::search(int threads, const std::function<void(const Flagged&)>& present) {
+  const NearbyPoints<Eigen::Vector3d> near(kept_, map_.distance);
+  std::vector<std::uint8_t> is_present(flagged_.size(), 0);
+  parallel_for(threads, flagged_.size(), kGrain,
+               [&](std::size_t i) { is_present[i] = near.has_near(flagged_[i].point) ? 1 : 0; });
+  for (std::size_t i = 0; i < flagged_.size(); ++i) {
+    if (is_present[i] != 0) present(flagged_[i]);
+  }
+  flagged_ = {};
+  kept_ = {};
+}
 
 /// From this number on, waiting is worth an extra pass, because marks need much memory.
 constexpr std::size_t kManyBlocks = 4'000'000;

@@ -21,6 +21,5 @@ void bind_poses(py::module_& module);
 void bind_clean(py::module_& module);
 void bind_scores(py::module_& module);
 void bind_runs(py::module_& module);
-void bind_pages(py::module_& module);
 
 }  // namespace raymoval::python

@@ -16,5 +16,4 @@ PYBIND11_MODULE(_raymoval, module) {
   bind_clean(module);
   bind_scores(module);
   bind_runs(module);
-  bind_pages(module);
 }

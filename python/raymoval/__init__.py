@@ -11,7 +11,6 @@ tqdm is installed (`progress=False` shows none; a function of yours is called wi
 `ProgressState`), and stop on Ctrl-C.
 """
 from raymoval._methods import Remover, describe, methods, protocols
-from raymoval._pages import Page, show
 from raymoval._progress import ProgressState
 from raymoval._raymoval import (Cancelled, ConfigurationError, DataError, Error, InternalError,
                                 Masks, MethodError, Scan, Scans, SensorModel, Sequence, Sink,
@@ -22,8 +21,8 @@ from raymoval._sequences import clean, estimate, from_arrays, open, refine, time
 
 __all__ = [
     "Cancelled", "Comparison", "ConfigurationError", "DataError", "Error", "InternalError",
-    "Masks", "MethodError", "Page", "ProgressState", "ProtocolScore", "Remover", "Run", "Scan",
+    "Masks", "MethodError", "ProgressState", "ProtocolScore", "Remover", "Run", "Scan",
     "Scans", "Scores", "SensorModel", "Sequence", "Sink", "UsageError", "__version__",
     "clean", "compare", "describe", "estimate", "from_arrays", "load_run", "methods", "open", "protocols",
-    "refine", "run", "scenes", "score", "sensors", "show", "times",
+    "refine", "run", "scenes", "score", "sensors", "times",
 ]

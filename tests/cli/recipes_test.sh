@@ -38,7 +38,7 @@ for page in "$pages"/*.md; do
     cp out.txt said.txt
     for ((i = 1; i + 1 < ${#words[@]}; ++i)); do
       case ${words[i]} in
-        -o | --dynamic | --labelled | --scans | --html | --picture)
+        -o | --dynamic | --scans | --html | --picture)
           holds "$name: ${words[i]} ${words[i + 1]} is there" test -e "${words[i + 1]}" ;;
       esac
     done

@@ -85,9 +85,6 @@ if has script; then
   holds "nor without TERM" plain "$(term='' on_terminal "'$raymoval' nonsense")"
   holds "not in a file that a terminal's shell writes" plain \
     "$(on_terminal "'$raymoval' nonsense 2>file.txt; cat file.txt")"
-  holds "a verdict is coloured" coloured "$(on_terminal "'$raymoval' compare run run")"
-  holds "not if NO_COLOR is set" plain "$(NO_COLOR=1 on_terminal "'$raymoval' compare run run")"
-  holds "a verdict in a pipe is plain" plain "$(on_terminal "'$raymoval' compare run run | cat")"
   failing="'$raymoval' run --sequence street --method raymoval:online --memory-limit 1"
   holds "a failed cell is red" grep -q "$escape\[1;31m.*out_of_memory" \
     <(on_terminal "$failing --out failed")

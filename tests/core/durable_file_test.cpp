@@ -157,33 +157,6 @@ TEST_CASE("A file that does not reach the disk is told, and what was there stays
   CHECK(entries_in(folder.path()) == 1);
 }
 
-TEST_CASE(
-    "Folders that are made have their names on the disk, and none that is there is put anew") {
-  const TemporaryFolder folder;
-  const std::filesystem::path place = std::filesystem::canonical(folder.path());
-  const Recording begun;
-  CHECK_FALSE(make_folders(place / "a/b/c/"));
-  CHECK(std::filesystem::is_directory(place / "a/b/c"));
-  REQUIRE(requests.size() == 3);
-  CHECK(requests[0].path == place);
-  CHECK(requests[1].path == place / "a");
-  CHECK(requests[2].path == place / "a/b");
-  CHECK_FALSE(make_folders(place / "a/b"));
-  CHECK_FALSE(make_folders(place / "a/b/c/../d"));
-  REQUIRE(requests.size() == 4);
-}
-
-TEST_CASE("A folder that cannot be made is told with the system's reason") {
-  const TemporaryFolder folder;
-  const auto file = folder.write("file", "x");
-  CHECK(make_folders(file) == std::errc::not_a_directory);
-  CHECK(make_folders(file / "below/it") == std::errc::not_a_directory);
-  CHECK(make_folders(folder.path() / std::string(300, 'n')) == std::errc::filename_too_long);
-  const Refusing names({.sync_folder = EIO});
-  CHECK_THROWS_WITH(make_folders(folder.path() / "new"),
-                    Contains(folder.text() + ": it cannot be synchronised to the disk"));
-}
-
 TEST_CASE("A file whose owner or group cannot be kept gives nobody more than before") {
   const TemporaryFolder folder;
   const auto path = folder.write("a.txt", "before");
@@ -205,61 +178,4 @@ TEST_CASE("A file whose owner or group cannot be kept gives nobody more than bef
   CHECK(rights_after(0640, {.owner = EPERM, .group = EPERM}) == 0600);
   CHECK(rights_after(0447, {.owner = EPERM, .group = EPERM}) == 0447);
   CHECK(rights_after(0777, {.owner = EPERM, .group = EPERM}) == 0777);
-}
-
-TEST_CASE("A place where no file can be is told with the system's reason") {
-  const TemporaryFolder folder;
-  const auto file = folder.write("file", "x");
-  CHECK_THROWS_WITH(FileWriter(folder.path() / std::string(300, 'n')),
-                    Contains("cannot be written (File name too long)"));
-  CHECK_THROWS_WITH(FileWriter(file / "below"), Contains("cannot be written (Not a directory)"));
-  CHECK_THROWS_WITH(FileWriter(folder.path() / "none/a.txt"),
-                    Contains("cannot be written (No such file or directory)"));
-  // The name is short enough, and that of its part is not.
-  const auto long_name = folder.write(std::string(250, 'n'), "before");
-  CHECK_THROWS_WITH(FileWriter(long_name), Contains("cannot be written (File name too long)"));
-  CHECK_THROWS_WITH(sync_folder(file), Contains("file: cannot be opened (Not a directory)"));
-  FileWriter writer(folder.path() / "a.txt");
-  CHECK(writer.path() == folder.path() / "a.txt");
-  writer.append("abc");
-  writer.overwrite(0, "xyz");  // All of it, up to its end.
-  CHECK_THROWS_WITH(writer.overwrite(3, "!"),
-                    Contains("a.txt: overwrites bytes that were not written"));
-  writer.commit();
-  CHECK(read_text(folder.path() / "a.txt") == "xyz");
-}
-
-TEST_CASE(
-    "A new file may be read and written by whom the user's mask lets, also in a link's place") {
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "a.txt", link = folder.path() / "link";
-  std::filesystem::create_symlink("nowhere", link);
-  const mode_t usual = ::umask(0);
-  write_atomically(file, "x");
-  write_atomically(link, "x");
-  ::umask(usual);
-  CHECK(all_rights_of(file) == 0666);
-  CHECK(all_rights_of(link) == 0666);  // Links have all rights, which are none.
-}
-
-TEST_CASE("A file that gets its name with others is on the disk before, and nobody's part after") {
-  const TemporaryFolder folder;
-  const auto path = folder.path() / "a.txt";
-  FileWriter file(path);
-  file.append("nine byte");
-  {
-    const Recording begun;
-    Replacements all;
-    file.commit_with(all);
-    REQUIRE(requests.size() == 1);
-    CHECK(requests[0].what == "sync");
-    CHECK(requests[0].bytes == 9);
-    all.commit();
-  }
-  FileWriter other(folder.path() / "b.txt");
-  other.commit();
-  for (const char* name : {"a.txt", "b.txt"}) {
-    const Descriptor opened(::open((folder.path() / name).c_str(), O_RDONLY | O_CLOEXEC));
-    CHECK(::flock(opened.get(), LOCK_EX | LOCK_NB) == 0);  // Its writer is there still.
-  }
 }

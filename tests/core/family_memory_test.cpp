@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the memory of several processes is. 1 MiB is 2^20 bytes.
-#include "core/process/family_memory.h"
+#include "core/process/process_family.h"
 
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -90,55 +90,10 @@ TEST_CASE("shared memory that several processes have mapped counts once") {
   ::munmap(memory, 40 * kMib);
 }
 
-TEST_CASE("an open file without a disk counts as memory if it was written meanwhile") {
-  FamilyMemory before(kAnyMib);
-  const double without = before.measure({::getpid()});
-  const Descriptor file = memory_file("unmapped");
-  const std::string piece(kMib, 'x');
-  for (std::size_t i = 0; i < 40; ++i) REQUIRE(write_at(file.get(), piece, i * kMib));
-  // Files are measured every 100 ms, and their clock ticks every 10 ms.
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));
-  FamilyMemory after(kAnyMib);  // For this one the file was there before.
-  CHECK(after.measure({::getpid()}) == Approx(without).margin(3.0));
-  const Descriptor twice(::dup(file.get()));
-  CHECK(before.measure({::getpid()}) == Approx(without + 40.0).margin(3.0));
-}
-
-TEST_CASE("an open file without a disk counts if the clock was set back before it was written") {
-  static long ahead_s = 0;
-  ahead_s = 3600;
-  FamilyMemory memory(kAnyMib, [] {
-    timespec now = file_clock();
-    now.tv_sec += ahead_s;
-    return now;
-  });
-  const double without = memory.measure({::getpid()});
-  ahead_s = 0;
-  const Descriptor file = memory_file("unmapped");
-  const std::string piece(kMib, 'x');  // A freed buffer would stay in memory with sanitizers.
-  for (std::size_t i = 0; i < 40; ++i) REQUIRE(write_at(file.get(), piece, i * kMib));
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));
-  CHECK(memory.measure({::getpid()}) == Approx(without + 40.0).margin(3.0));
-}
-
-TEST_CASE("a child that fills a file without a disk is ended for its memory") {
-  const std::string file = "/dev/shm/raymoval-test-" + std::to_string(::getpid());
-  const ChildEnd end = run_child(limited_mib(
-      "exec 9>" + file + "; rm " + file + "; head -c 40000000 /dev/zero >&9; exec sleep 600", 30));
-  CHECK(end.kind == Kind::kOutOfMemory);
-  CHECK(end.largest_mib > 30.0);
-}
-
 TEST_CASE("a child that fills its folder is ended") {
   const TemporaryFolder folder;
   ChildSetup setup = limited("mkdir a; head -c 30000000 /dev/urandom >a/b; exec sleep 600", 60);
   setup.folder = folder.text();
-  setup.limits.folder_mib = 20.0;
-  CHECK(run_child(setup).kind == Kind::kOutOfDisk);
-  // A file that has no name any more takes as much.
-  const TemporaryFolder emptied;
-  setup = limited("exec 9>b; rm b; head -c 30000000 /dev/urandom >&9; exec sleep 600", 60);
-  setup.folder = emptied.text();
   setup.limits.folder_mib = 20.0;
   CHECK(run_child(setup).kind == Kind::kOutOfDisk);
   setup = limited("head -c 10000000 /dev/urandom >c; sleep 1.2", 60);

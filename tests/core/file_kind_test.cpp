@@ -117,15 +117,6 @@ TEST_CASE(
   CHECK_THROWS_WITH(entries_of(folder.path() / "none"), Contains("cannot be listed"));
 }
 
-TEST_CASE("A piece of a file ends where the file ends") {
-  const TemporaryFolder folder;
-  write_atomically(folder.path() / "a", "0123456789");
-  CHECK(read_piece(folder.path() / "a", 2, 3) == "234");
-  CHECK(read_piece(folder.path() / "a", 8, 100) == "89");
-  CHECK(read_piece(folder.path() / "a", 10, 1).empty());
-  CHECK(read_piece(folder.path() / "a", 99, 1).empty());
-}
-
 TEST_CASE("Temporary names are new each time and have a form of their own") {
   const fs::path part = new_part_name("out/table.md");
   CHECK(part.parent_path() == "out");
@@ -139,17 +130,6 @@ TEST_CASE("Temporary names are new each time and have a form of their own") {
         "a.raymoval-0123456789abcdef0123456.part", "a.raymoval-0123456789abcdef01234567.part.gz"}) {
     CHECK_FALSE(is_part_name(other));
   }
-}
-
-TEST_CASE("A path has a last name and a folder, with a slash at its end or without") {
-  CHECK(without_slash("a/b/") == "a/b");
-  CHECK(without_slash("a/b") == "a/b");
-  CHECK(without_slash("/") == "/");
-  CHECK(folder_of("a/b") == "a");
-  CHECK(folder_of("a/b/") == "a");
-  CHECK(folder_of("b") == ".");
-  CHECK(folder_of("b/") == ".");
-  CHECK(folder_of("/b") == "/");
 }
 
 TEST_CASE("What is absent or damaged may be done without, but not what cannot be read") {

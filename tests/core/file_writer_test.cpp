@@ -81,19 +81,6 @@ TEST_CASE("A file keeps what it held until all of the new content has its name")
   CHECK(files_in(folder.path()) == 1);
 }
 
-TEST_CASE("A file that is given up leaves nothing") {
-  const TemporaryFolder folder;
-  { FileWriter(folder.path() / "a.txt").append("half"); }
-  CHECK(files_in(folder.path()) == 0);
-}
-
-TEST_CASE("Only what was appended can be overwritten") {
-  const TemporaryFolder folder;
-  FileWriter file(folder.path() / "a.txt");
-  file.append("abc");
-  CHECK_THROWS_AS(file.overwrite(2, "xy"), InternalError);
-}
-
 TEST_CASE("A full disk is told, and what was there stays") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.txt";

@@ -53,13 +53,6 @@ TEST_CASE("A file that cannot be read is named with the reason") {
   CHECK_THROWS_WITH(read_bytes(folder.path()), Contains("is a folder, expected a file"));
 }
 
-TEST_CASE("A byte order mark is no part of the text") {
-  const TemporaryFolder folder;
-  write_atomically(folder.path() / "a.json", "\xEF\xBB\xBF{\"a\": 1}");
-  CHECK(read_text(folder.path() / "a.json") == "{\"a\": 1}");
-  CHECK(read_json(folder.path() / "a.json")["a"] == 1);
-}
-
 TEST_CASE("JSON may have comments, and an error tells line and column") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.json";

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/scan/label_rule.h"
 #include "core/scan/mask_store.h"
-#include "core/scan/packed_mask.h"
 #include "core/scan/range_limits.h"
 #include "core/scan/scan_source.h"
 #include "tests/datasets/temporary_folder.h"
@@ -50,11 +49,6 @@ TEST_CASE("Masks of any size come back as they were, from memory and from a file
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("A spool whose file cannot be made names the place") {
-  CHECK_THROWS_WITH(ScanSpool(1, "/no/folder/map.pcd", "masks"),
-                    Contains("/no/folder/map.pcd: the file for masks beside it cannot be made"));
-}
-
 TEST_CASE("A mask set again replaces the first") {
   MaskStore store(1);
   store.set(0, Mask(100, 1));
@@ -82,19 +76,6 @@ TEST_CASE("Points that are all kept or all removed take next to nothing") {
     CHECK(store.removed_count() == (value == 0 ? 3 : kPoints - 3));
     CHECK(store.bytes() == before + 3 * sizeof(std::uint64_t));
   }
-}
-
-TEST_CASE("A packed mask has eight points in a byte, the first in its lowest bit") {
-  const Mask ten = {1, 0, 0, 0, 0, 0, 0, 1, 0, 1};
-  CHECK(packed_mask(ten) == "\x81\x02");
-  CHECK(unpacked_mask("\x81\x02", 10) == ten);
-  CHECK(packed_mask({}).empty());
-  CHECK(unpacked_mask("", 0).empty());
-  CHECK(packed_mask({0}) == std::string(1, '\0'));
-  CHECK(packed_mask(Mask(8, 1)) == "\xff");
-  CHECK(packed_mask(Mask(9, 1)) == "\xff\x01");
-  CHECK(unpacked_mask("\xff\x01", 9) == Mask(9, 1));
-  CHECK(packed_mask({0, 2, 255}) == "\x06");  // Any value but 0 is removed.
 }
 
 TEST_CASE("The semantic id is the lower half of a label word") {
@@ -137,14 +118,6 @@ TEST_CASE("A wrong label rule is an error that says where") {
   }
 }
 
-TEST_CASE("Both ends of a range belong to it, and NaN does not") {
-  const RangeLimits limits{2.0, 5.0};
-  CHECK((limits.contains(2.0) && limits.contains(5.0)));
-  CHECK_FALSE((limits.contains(1.999) || limits.contains(5.001)));
-  CHECK_FALSE(limits.contains(std::numeric_limits<double>::quiet_NaN()));
-  CHECK(RangeLimits{}.contains(0.0));
-}
-
 TEST_CASE("A scan knows where its points stand in its file") {
   Scan scan;
   scan.points.resize(2);
@@ -153,19 +126,4 @@ TEST_CASE("A scan knows where its points stand in its file") {
   CHECK(scan.stored_position(1) == 1);
   scan.stored_index = {0, 4};
   CHECK(scan.stored_position(1) == 4);
-}
-
-TEST_CASE("Each error has the exit code of its kind") {
-  CHECK(Error("x").exit_code() == ExitCode::kCannotDo);
-  CHECK(UsageError("x").exit_code() == ExitCode::kCannotDo);
-  CHECK(DataError("x").exit_code() == ExitCode::kCannotDo);
-  CHECK(ConfigurationError("x").exit_code() == ExitCode::kCannotDo);
-  CHECK(MethodError("x").exit_code() == ExitCode::kWorse);
-  CHECK(Cancelled().exit_code() == ExitCode::kWorse);
-  CHECK(InternalError("x").exit_code() == ExitCode::kInternal);
-  CHECK(static_cast<int>(ExitCode::kDone) == 0);
-  CHECK(static_cast<int>(ExitCode::kWorse) == 1);
-  CHECK(static_cast<int>(ExitCode::kCannotDo) == 2);
-  CHECK(static_cast<int>(ExitCode::kInternal) == 3);
-  CHECK(std::string(DataError("a.bin: torn").what()) == "a.bin: torn");
 }

@@ -66,20 +66,6 @@ TEST_CASE("names that some reader would take for something else are refused") {
   }
 }
 
-TEST_CASE("names that only have to be escaped may stand") {
-  for (const std::string name :
-       {"05", "kitti-05", "raymoval:offline:tau0=0.2,tau1=0.3",
-        "stra\xc3\x9f"
-        "e \xe9\x81\x93",
-        "<script>alert(1)</script", "a&b", "$(touch x)", "`x`", "a;b|c", "\"q\" 'r'", "*?[x]{y}",
-        "[a]_b & 50% #1 {x} ~^ <>|", "a=b", "x -1", "%n%s", "| a |", "\xf0\x9f\x9a\x97"}) {
-    INFO(name);
-    const std::string problem = name.find('/') == std::string::npos ? "" : "has a slash";
-    CHECK(name_problem(name) == problem);
-  }
-  CHECK(name_problem(std::string(200, 'a')).empty());
-}
-
 TEST_CASE("nothing but line breaks and tabs reaches a log") {
   std::FILE* const log = std::tmpfile();  // No terminal.
   REQUIRE(log != nullptr);
@@ -110,7 +96,7 @@ TEST_CASE("a terminal gets the program's colours and no other sequence") {
   if (terminal == nullptr) return;
   ::setenv("TERM", "xterm", 1);
   ::unsetenv("NO_COLOR");
-  const std::string red = coloured("red", TerminalColour::kBad, terminal);
+  const std::string red = in_red("red", terminal);
   CHECK(red != "red");
   CHECK(terminal_text(red + "\n", terminal) == red + "\n");
   CHECK(terminal_text("\x1b[8mhidden\x1b[2J\x1b[31mx", terminal) == " [8mhidden [2J [31mx");

@@ -12,26 +12,6 @@
 
 using namespace raymoval;
 
-TEST_CASE("Chunks are cut by count and grain only") {
-  using Cuts = std::set<std::pair<std::size_t, std::size_t>>;
-  const auto cuts = [](int threads, std::size_t count, std::size_t grain) {
-    Cuts seen;
-    std::mutex mutex;
-    parallel_chunks(threads, count, grain, [&](std::size_t begin, std::size_t end) {
-      const std::lock_guard lock(mutex);
-      seen.emplace(begin, end);
-    });
-    return seen;
-  };
-  for (const int threads : {-1, 0, 1, 2, 8}) {
-    CHECK(cuts(threads, 10, 4) == Cuts{{0, 4}, {4, 8}, {8, 10}});
-    CHECK(cuts(threads, 8, 4) == Cuts{{0, 4}, {4, 8}});
-    CHECK(cuts(threads, 3, 100) == Cuts{{0, 3}});
-    CHECK(cuts(threads, 2, 0) == Cuts{{0, 1}, {1, 2}});  // A grain of 0 is one of 1.
-    CHECK(cuts(threads, 0, 4).empty());
-  }
-}
-
 TEST_CASE("Each index is visited exactly once") {
   for (const int threads : {1, 2, 8}) {
     std::vector<std::atomic<int>> visits(10007);
@@ -110,8 +90,4 @@ TEST_CASE("Whoever has done its part of a loop helps in a loop within another pa
     });
     CHECK(arrived == 2);
   }
-}
-
-TEST_CASE("There is at least one hardware thread") {
-  CHECK(hardware_threads() >= 1);
 }

@@ -49,17 +49,6 @@ TEST_CASE("The table holds the defaults of the struct, in its order") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(table().specs()[i].default_value == defaults[i].second);
 }
 
-TEST_CASE("What is written is read back") {
-  const Parameters given{0.125, 3, false, Source::kGrowing};
-  const Parameters back = table().read(table().write(given));
-  CHECK(back.tau == 0.125);
-  CHECK(back.bins == 3);
-  CHECK_FALSE(back.erase);
-  CHECK(back.source == Source::kGrowing);
-  // What a configuration leaves out keeps its default.
-  CHECK(table().read({{"bins", std::int64_t{5}}}).tau == 0.3);
-}
-
 TEST_CASE("JSON and text give the same values") {
   CHECK(from_json("tau", 0.5) == ParameterValue(0.5));
   CHECK(from_json("tau", 1) == ParameterValue(1.0));  // A whole number is a number.

@@ -46,11 +46,6 @@ std::string told_by_task(ProgressStyle style) {
 
 }  // namespace
 
-TEST_CASE("Quiet progress prints nothing at all") {
-  CHECK(told_by_task(ProgressStyle::kQuiet).empty());
-  CHECK(told_by([] { Progress().say("x"); }).empty());
-}
-
 TEST_CASE("In a log a short task is no more than what is said, in plain lines") {
   const std::string log = told_by_task(ProgressStyle::kLog);
   CHECK_THAT(log, Contains("one cell is done\n"));
@@ -88,12 +83,6 @@ TEST_CASE("Progress says how far it is to those who ask, and which task it is") 
   CHECK(progress.state() == ProgressState{"[2/3] x on town", "map", 0, 10, 2});
   progress.end();
   CHECK(progress.state().total == 0);
-}
-
-TEST_CASE("A file is no terminal") {
-  ProgressStyle style = ProgressStyle::kTerminal;
-  told_by([&] { style = progress_style_of_stderr(); });
-  CHECK(style == ProgressStyle::kLog);
 }
 
 TEST_CASE("Stages add up in the order in which they first ran, scans in their own") {

@@ -209,20 +209,6 @@ TEST_CASE("Columns that are shifted from beam to beam are no finer columns", "[s
   CHECK(std::abs(model.beams - 64) <= 1);
 }
 
-TEST_CASE("A file that interleaves columns shows the same sensor", "[sensor-estimate]") {
-  // Column 0, 16, 32 ..., 1, 17 ... of all beams: neighbours in the file are 3.2 degrees apart.
-  std::vector<Scan> scans = scans_of(vlp16());
-  const SensorModel in_order = estimate_sensor_model(scans);
-  for (Scan& scan : scans) {
-    std::vector<Eigen::Vector3f> points;
-    for (std::size_t start = 0; start < 16; ++start) {
-      for (std::size_t i = start; i < scan.size(); i += 16) points.push_back(scan.points[i]);
-    }
-    scan.points = points;
-  }
-  check_same(estimate_sensor_model(scans), in_order);
-}
-
 TEST_CASE("Several revolutions in a scan show the steps of one", "[sensor-estimate]") {
   Head head;
   head.elevations = evenly(-25.0, 10.0, 32);
@@ -373,16 +359,6 @@ TEST_CASE("Scans without beams have no spin axis but z", "[sensor-estimate]") {
   CHECK(estimate_spin_axis({Scan{}, Scan{}}) == Eigen::Vector3d::UnitZ());
 }
 
-TEST_CASE("Scans that are unlike the others do not change the steps", "[sensor-estimate]") {
-  std::vector<Scan> scans = scans_of(vlp16());
-  scans[0] = Scan{};                                         // Empty.
-  scans[2].points.assign(500, Eigen::Vector3f(0.3F, 0, 0));  // Blocked.
-  std::erase_if(scans[4].points, [](const Eigen::Vector3f& p) { return p.x() < 0.0F; });
-  const SensorModel model = estimate_sensor_model(scans);
-  check_steps(model, 0.2, 2.0);
-  CHECK(model.full_circle());
-}
-
 TEST_CASE("A scan of nothing but ground shows the beams that meet it", "[sensor-estimate]") {
   Head head;
   head.elevations = evenly(-24.0, -8.0, 17);
@@ -393,24 +369,6 @@ TEST_CASE("A scan of nothing but ground shows the beams that meet it", "[sensor-
   const SensorModel model = estimate_sensor_model(scans);
   check_steps(model, 0.2, 1.0);
   CHECK(model.elevation_max < -7.5 * kDegree);
-}
-
-TEST_CASE("A few points leave the steps unknown", "[sensor-estimate]") {
-  Scan scan;
-  for (int i = 0; i < 40; ++i) scan.points.emplace_back(5.0F, 0.3F * static_cast<float>(i), 0.1F);
-  const SensorModel model = estimate_sensor_model({scan});
-  CHECK(model.azimuth_step == 0.0);
-  CHECK(model.elevation_step == 0.0);
-  CHECK_THAT(model.basis, Contains("too few directions"));
-}
-
-TEST_CASE("One beam has no distance to the next", "[sensor-estimate]") {
-  Head head;
-  head.elevations = {0.0};
-  const SensorModel model = estimate_sensor_model(scans_of(head));
-  CHECK(model.azimuth_step == Approx(0.2 * kDegree).epsilon(0.05));
-  CHECK(model.elevation_step == 0.0);
-  CHECK(model.beams == 1);
 }
 
 TEST_CASE("Two returns of a direction are one direction", "[sensor-estimate]") {

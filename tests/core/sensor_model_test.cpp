@@ -67,21 +67,3 @@ TEST_CASE("The field of view goes from the outermost directions to those opposit
   CHECK(model.range_max == Approx(30.0));
   CHECK_FALSE(model.full_circle());
 }
-
-TEST_CASE("A view all around is a full circle") {
-  const SensorModel model = estimate_sensor_model({half_degree_scan(-179.5, 179.5)});
-  CHECK(model.azimuth_min == -std::numbers::pi);
-  CHECK(model.azimuth_max == std::numbers::pi);
-  CHECK(model.full_circle());
-}
-
-TEST_CASE("Without points there is no sensor to see") {
-  CHECK_THROWS_AS(estimate_sensor_model({}), DataError);
-  CHECK_THROWS_AS(estimate_sensor_model({Scan{}, Scan{}}), DataError);
-  Scan origin;
-  origin.points.assign(10, Eigen::Vector3f::Zero());  // Lost returns: they have no direction.
-  CHECK_THROWS_WITH(estimate_sensor_model({origin}), Contains("none of 1 sampled scans"));
-  // Scans without points do not affect the result.
-  const SensorModel model = estimate_sensor_model({Scan{}, origin, half_degree_scan(-30.0, 30.0)});
-  CHECK(model.range_min == Approx(10.0));
-}

@@ -74,28 +74,6 @@ TEST_CASE("The locale never matters") {
   CHECK_FALSE(parse_number<double>("1234,5").has_value());
 }
 
-TEST_CASE("Fixed decimals are rounded to nearest") {
-  CHECK(fixed_text(98.12349, 3) == "98.123");
-  CHECK(fixed_text(98.1236, 3) == "98.124");
-  CHECK(fixed_text(-0.06, 1) == "-0.1");
-  CHECK(fixed_text(2.0, 0) == "2");
-  CHECK(fixed_text(std::numeric_limits<double>::max(), 4).size() == 309 + 5);
-}
-
-TEST_CASE("Digits are grouped by three") {
-  CHECK(grouped_text(0) == "0");
-  CHECK(grouped_text(999) == "999");
-  CHECK(grouped_text(1000) == "1,000");
-  CHECK(grouped_text(123456) == "123,456");
-  CHECK(grouped_text(std::numeric_limits<std::uint64_t>::max()) == "18,446,744,073,709,551,615");
-}
-
-TEST_CASE("One of a thing has no plural") {
-  CHECK(counted_text(0, "scan") == "0 scans");
-  CHECK(counted_text(1, "scan") == "1 scan");
-  CHECK(counted_text(1234, "pose") == "1,234 poses");
-}
-
 TEST_CASE("A number is the whole text or nothing") {
   CHECK(parse_number<double>("+2.5") == 2.5);
   CHECK_FALSE(parse_number<double>("+-2.5").has_value());

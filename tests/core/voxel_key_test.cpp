@@ -73,14 +73,3 @@ TEST_CASE("Beyond the lattice is an error and never another cell") {
   CHECK_THROWS_WITH(voxel_index(Eigen::Vector3d(3e6, 0, 0), 1.0),
                     Contains("(3e+06, 0, 0)") && Contains("1,048,575") && Contains("poses"));
 }
-
-TEST_CASE("Neighbouring keys have different hashes") {
-  std::vector<std::size_t> hashes;
-  for (int x = -10; x < 10; ++x) {
-    for (int y = -10; y < 10; ++y) {
-      for (int z = -10; z < 10; ++z) hashes.push_back(VoxelKeyHash{}(voxel_key(x, y, z)));
-    }
-  }
-  std::sort(hashes.begin(), hashes.end());
-  CHECK(std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end());
-}

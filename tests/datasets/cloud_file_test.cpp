@@ -151,38 +151,6 @@ TEST_CASE("points far from the origin keep their digits when read from near them
   }
 }
 
-TEST_CASE("what is written reads back bit by bit", "[cloud]") {
-  const TemporaryFolder folder;
-  std::mt19937 random(3);
-  std::normal_distribution<float> normal(0.0F, 50.0F);
-  std::vector<Eigen::Vector3f> points(100);
-  std::vector<float> intensity;
-  for (auto& point : points) {
-    point = {normal(random), normal(random), normal(random)};
-    intensity.push_back(normal(random));
-  }
-  points[7].x() = std::numeric_limits<float>::infinity();
-  for (const std::string extension : {".pcd", ".ply", ".bin", ".npy"}) {
-    const auto path = folder / ("cloud" + extension);
-    write_cloud(path, points, intensity);
-    CHECK(read_cloud(path).points == points);
-    CHECK(read_cloud(path).intensity == intensity);
-    write_cloud(path, points);
-    CHECK(read_cloud(path).points == points);
-    const std::vector<float> zeros(points.size(), 0.0F);
-    CHECK(read_cloud(path).intensity == (extension == ".bin" ? zeros : std::vector<float>{}));
-    write_cloud(path, {});
-    CHECK(read_cloud(path).points.empty());
-  }
-  CHECK_THROWS_AS(write_cloud(folder / "cloud.xyz", points), UsageError);
-}
-
-TEST_CASE("a truncated .bin says its size and where it breaks off", "[cloud]") {
-  // 2 points and 8 bytes.
-  check_says(read_error("000123.bin", std::string(40, '\0')),
-             {"000123.bin", "40 bytes", "multiple of 16", "after point 2", "--skip-bad-scans"});
-}
-
 TEST_CASE("a damaged PCD body is named", "[cloud]") {
   check_says(read_error("a.pcd", pcd_head(3, "binary") + floats({1, 2, 3, 4, 5, 6})),
              {"a.pcd", "3 points of 16 bytes", "24 bytes follow", "after point 1"});

@@ -6,8 +6,8 @@
 #include "core/error.h"
 #include "datasets/ego/ego_region.h"
 #include "datasets/open_sequence.h"
+#include "datasets/reading/fingerprint.h"
 #include "datasets/reading/left_out.h"
-#include "datasets/reading/loaded_data.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/inspect_data.h"
 

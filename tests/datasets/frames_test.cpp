@@ -51,20 +51,6 @@ TEST_CASE("a frame range that makes no sense says what the form is", "[frames]")
   }
 }
 
-TEST_CASE("one number is not taken for a range, but told how to be one", "[frames]") {
-  const auto message = [](const char* text) {
-    return message_of<UsageError>([&] { parse_frame_range(text); });
-  };
-  check_says(message("5"), {"100:200, ::2. A single frame is 5:5."});
-  check_says(message("0"), {"A single frame is 0:0."});
-  CHECK(parse_frame_range("0:0:1").last == 0);
-  check_says(message("1:2:0"), {"stride '0'", "from 1 on"});
-  check_says(message("-1:2"), {"first '-1'", "from 0 on"});
-  for (const char* text : {"-5", "x", "1:2:3:4"}) {
-    CHECK_THAT(message(text), !Catch::Contains("single frame"));
-  }
-}
-
 TEST_CASE("a range selects with its ends included and strides from its start", "[frames]") {
   const auto files = numbered({3, 4, 5, 6, 7, 8});
   CHECK(numbers_of(choose_frames(files, parse_frame_range("4:8:2"), "d")) ==
@@ -148,25 +134,4 @@ TEST_CASE("numbered files are listed by number, and strange names are errors", "
   }
   check_says(message_of<DataError>([&] { list_numbered_files(folder.text(), ".pcd"); }),
              {"holds no *.pcd"});
-}
-
-TEST_CASE("a stride without ends takes what there is, also where it steps over the last one",
-          "[frames]") {
-  const ChosenFrames chosen = choose_frames(numbered({0, 1, 2, 7}), parse_frame_range("::2"), "d");
-  CHECK(numbers_of(chosen) == std::vector<long>{0, 2});
-  CHECK(frame_range_text(chosen.range) == "0:7:2");
-}
-
-TEST_CASE("the content of a folder is told with up to eight names", "[frames]") {
-  const TemporaryFolder folder;
-  CHECK(content_text(folder.path()) == "nothing");
-  folder.write("b/in.txt", "x");
-  folder.write("a.txt", "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/");
-  for (const char* name : {"c", "d", "e", "f", "g", "h"}) folder.write(name, "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h");
-  folder.write("i", "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 1 more");
-  folder.write("j", "x");
-  CHECK(content_text(folder.path()) == "a.txt, b/, c, d, e, f, g, h and 2 more");
 }

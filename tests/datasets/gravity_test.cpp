@@ -118,27 +118,6 @@ TEST_CASE("each axis of the world may be up, exactly", "[gravity]") {
   }
 }
 
-TEST_CASE("a shift of the world and the order of points change nothing", "[gravity]") {
-  const Pose tilt = turned(20.0, {1, 1, 0});
-  Pose far = tilt;
-  far.translation() = Vector3d(691000.25, 5336000.5, 512.0);
-  FlatWorld world = road(0.0, Houses::kBlocks);
-  const Vector3d up = up_of(LocalFrameSource(world, tilt));
-  CHECK(up_of(LocalFrameSource(world, far)) == up);
-  world.shuffle();
-  CHECK(up_of(LocalFrameSource(world, tilt)) == up);
-}
-
-TEST_CASE("without ground or points z is up", "[gravity]") {
-  FlatWorld air;
-  CHECK(estimate_gravity(air).up.is_world_z());
-  air.scan({}, Pose::Identity());
-  CHECK(estimate_gravity(air).up.is_world_z());
-  FlatWorld wall;  // One wall beside the sensor, nothing else.
-  wall.scan({{{10, 0, 0}, {0, 30, 0}, {0, 0, 30}}}, Pose::Identity());
-  CHECK(estimate_gravity(wall).up.is_world_z());
-}
-
 TEST_CASE("a simulated drive is upright in any world", "[gravity]") {
   const test::EditedSequence drive = test::good_drive();
   CHECK(estimate_gravity(drive).up.is_world_z());

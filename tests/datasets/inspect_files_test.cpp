@@ -131,12 +131,6 @@ TEST_CASE("a VIEWPOINT that is not the sensor's pose is named", "[inspect][slow]
   check_finds(inspect_dynamicmap(none, range, drive), "viewpoint-missing", "VIEWPOINT");
 }
 
-TEST_CASE("a .pcd file without VIEWPOINT is named", "[inspect]") {
-  const TemporaryFolder folder;
-  write_pcd(folder, "pcd/000000.pcd", "", {{1, 2, 3}}, {0});
-  check_finds(inspect_path(folder.text(), {}), "viewpoint-missing", "pose file");
-}
-
 TEST_CASE("labels in the intensity are named", "[inspect][slow]") {
   PcdStyle value;
   value.intensity = [](float, std::uint32_t word) { return static_cast<float>(word & 0xFFFFU); };
@@ -239,17 +233,6 @@ TEST_CASE("copied files are named wherever they are", "[inspect]") {
   REQUIRE(found(report).count("duplicated-scans") == 1);
   CHECK(report.findings[0].where == "000011.bin");
   CHECK_THAT(report.findings[0].what, Catch::Contains("000002.bin"));
-}
-
-TEST_CASE("a label file that ends with a part of a label is found", "[inspect]") {
-  const TemporaryFolder folder;
-  write_files(folder, good_drive());
-  const auto labels = folder / "labels/000000.label";
-  fs::resize_file(labels, fs::file_size(labels) + 2);
-  const InspectionReport report = inspect_path(folder.text(), {});
-  INFO(text_of(report));
-  REQUIRE(found(report).count("label-count") == 1);
-  CHECK_THAT(text_of(report), Catch::Contains("labels and a part of one for"));
 }
 
 TEST_CASE("cleaning refuses what makes the map wrong, and does not mind labels", "[inspect]") {

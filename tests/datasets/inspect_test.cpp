@@ -85,27 +85,6 @@ TEST_CASE("key frames of a motorway at 2 Hz, 15 m apart, have no finding", "[ins
   }
 }
 
-TEST_CASE("a narrow view of a road with traffic is not taken for another drive",
-          "[inspect][slow]") {
-  // The rosette sees little but the ground; the window sees vehicles that all drive along, and a
-  // few poles.
-  for (const char* sensor : {"rosette", "solid-state"}) {
-    SimulationOptions options;
-    options.scene = "motorway";
-    options.scans = 12;
-    options.sensor = sensor;
-    INFO(sensor);
-    CHECK(found(EditedSequence(options).inspected()).count("poses-of-another-sequence") == 0);
-  }
-  // Two scans a second of the rosette, 15 m from each other.
-  SimulationOptions options;
-  options.scene = "motorway";
-  options.scans = 41;
-  options.sensor = "rosette";
-  const std::set<std::string> names = found(EditedSequence(options, 5).inspected());
-  CHECK(names.count("poses-of-another-sequence") + names.count("poses-in-millimetres") == 0);
-}
-
 TEST_CASE("a narrow view tells poses that the ground alone contradicts", "[inspect][slow]") {
   // The sensor is pitched down by 35 degrees. As poses of a car that drives ahead, its poses would
   // lead into the ground.
@@ -119,13 +98,6 @@ TEST_CASE("a narrow view tells poses that the ground alone contradicts", "[inspe
     scan.T_world_sensor.translation().x() = static_cast<double>(scan.index);
   }
   CHECK(found(drive.inspected()).count("poses-of-another-sequence") == 1);
-}
-
-TEST_CASE("a world far from its origin is silent", "[inspect][slow]") {
-  EditedSequence far = good_drive();
-  const Eigen::Translation3d shift(691000.25, 5336000.5, 512.0);
-  far.each_pose([&](const Pose& pose) { return shift * pose; });
-  check_silent(far.inspected());
 }
 
 TEST_CASE("positions that lost their digits far from the origin are named", "[inspect][slow]") {
@@ -300,14 +272,6 @@ TEST_CASE("labels of the next or the last scan are named", "[inspect][slow]") {
     check_finds(by_place, "labels-shifted", "Rename");
     CHECK_THAT(by_place.findings[0].what, Catch::Contains(next ? "after it" : "before it"));
   }
-}
-
-TEST_CASE("a count of labels that does not fit is named", "[inspect]") {
-  EditedSequence drive = good_drive();
-  drive.words[0].pop_back();
-  const InspectionReport report = drive.inspected();
-  check_finds(report, "label-count", "not scored");
-  CHECK_THAT(report.findings[0].where, Catch::Contains("scan 0"));
 }
 
 TEST_CASE("skewed scans are named, corrected ones are not", "[inspect][slow]") {

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/reading/fingerprint.h"
 #include "tests/datasets/temporary_folder.h"
 #include "tests/datasets/written_cloud.h"
 
@@ -89,16 +89,6 @@ TEST_CASE("DynamicMap intensity is a label only where a rule says so", "[dynamic
   }
 }
 
-TEST_CASE("DynamicMap takes no pose file and needs a VIEWPOINT", "[dynamicmap]") {
-  const TemporaryFolder folder;
-  write_dynamicmap(folder);
-  SequenceOptions options;
-  options.poses = "poses.txt";
-  check_says(open_error<UsageError>(folder.text(), options), {"'poses.txt'", "VIEWPOINT"});
-  folder.write("pcd/000009.pcd", world_pcd("0 0 0 2 0 0 0", "1 2 3 0\n", 1));
-  check_says(open_error(folder.text()), {"000009.pcd", "VIEWPOINT", "length 2"});
-}
-
 TEST_CASE("a folder of mixed scan files opens in natural order", "[files]") {
   const TemporaryFolder folder;
   const std::vector<Eigen::Vector3f> points = {{1, 2, 3}, {4, 5, 6}};
@@ -124,16 +114,6 @@ TEST_CASE("a folder of mixed scan files opens in natural order", "[files]") {
   SequenceOptions options;
   options.frames = parse_frame_range("2:2");
   CHECK(open_sequence(folder.text(), options).scans->load(0).name == "scan_10");
-}
-
-TEST_CASE("a folder of scans with labels uses them", "[files]") {
-  const TemporaryFolder folder;
-  write_cloud(folder / "a.pcd", {{1, 2, 3}, {4, 5, 6}});
-  folder.write("poses.txt", kIdentityRow);
-  folder.write("labels/a.label", words({40, 252}));
-  const Sequence sequence = open_sequence(folder.text(), {});
-  REQUIRE(sequence.labels);
-  CHECK(sequence.labels->labels(sequence.scans->load(0)) == std::vector<std::uint32_t>{40, 252});
 }
 
 TEST_CASE("a folder of scans needs one pose a scan and one file a scan", "[files]") {

@@ -94,31 +94,3 @@ TEST_CASE("a scan may be without a return, and infinite points are damage", "[no
   check_says(message_of<DataError>([&] { (void)damaged.scans->load(0); }),
              {"1 of 2 points are infinite", "as NaN"});
 }
-
-TEST_CASE("nothing is said where nothing is left out", "[no-returns]") {
-  const TemporaryFolder folder;
-  write_scan(folder, {1, 0, 0, 0});
-  const Sequence sequence = open_sequence(folder.text(), {});
-  (void)sequence.scans->load(0);
-  CHECK(left_out_lines(sequence).empty());
-}
-
-TEST_CASE("an empty name of a sensor means none", "[settings]") {
-  const TemporaryFolder folder;
-  write_scan(folder, {1, 0, 0, 0, 0, 1, 0, 0});
-  folder.write("sequence.json", R"({"sensor": ""})");
-  CHECK(open_sequence(folder.text(), {}).scans->sensor().name == "estimated");
-  folder.write("sequence.json", R"({"sensor": "vlp16"})");
-  SequenceOptions options;
-  CHECK(open_sequence(folder.text(), options).scans->sensor().name == "vlp16");
-  options.sensor = "";
-  CHECK(open_sequence(folder.text(), options).scans->sensor().name == "estimated");
-}
-
-TEST_CASE("Of a sequence that is not read from files nothing is left out") {
-  const LeftOutPoints points = left_out_points(open_sequence("street", {}));
-  CHECK(points.stored == 0);
-  CHECK(points.no_returns == 0);
-  CHECK(points.looked_at == 0);
-  CHECK(points.ego_vehicle == 0);
-}

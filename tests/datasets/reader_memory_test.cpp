@@ -205,36 +205,3 @@ TEST_CASE("readers of recordings need a bounded number of times what their chunk
     CHECK_THROWS_AS(read_recording(file), DataError);
   }
 }
-
-TEST_CASE("readers of what stands beside scans need a bounded number of times their file") {
-  const test::TemporaryFolder folder;
-  const auto text = [&](const std::string& name, const std::string& line) {
-    return folder.write(name, repeated(line, kMegabyte / 2));
-  };
-  const auto check_poses = [&](const std::filesystem::path& file) {
-    check_memory(file, 32, [&] { (void)read_pose_file(file); });
-  };
-  check_poses(text("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"));
-  check_poses(text("tum.txt", "0 0 0 0 0 0 0 1\n"));
-  check_poses(text("blank.txt", "\n"));
-  check_poses(text("line.txt", "0 "));
-  const auto times = text("times.txt", "0\n");
-  check_memory(times, 32, [&] { (void)read_stamp_file(times); });
-  for (const std::string line : {":\n", "a:\n", "\n", "Tr: ", "Tr: 0\n"}) {
-    const auto file = text("calib.txt", line);
-    check_memory(file, 100, [&] { (void)read_calibration(file, "Tr"); });
-  }
-}
-
-TEST_CASE("readers of JSON need a bounded number of times their file") {
-  const test::TemporaryFolder folder;
-  for (const std::string item : {"[],", "0,", "\"\",", "{},", "{\"\":0},", "[[[[[]]]]],"}) {
-    const auto file = folder.write(
-        "list.json", "[" + repeated(item, kMegabyte / 4) + item.substr(0, item.size() - 1) + "]");
-    check_memory(file, 100, [&] { (void)read_json(file); });
-  }
-  for (const char open : {'[', '{'}) {
-    const auto file = folder.write("deep.json", std::string(kMegabyte / 4, open));
-    check_memory(file, 100, [&] { (void)read_json(file); });
-  }
-}

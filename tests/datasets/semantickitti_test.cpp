@@ -125,19 +125,6 @@ TEST_CASE("a root opens by sequence number or by the name of a segment", "[seman
   check_says(open_error<UsageError>(folder.text()), {"01/, 05/", "such as"});
 }
 
-TEST_CASE("the five segments have the scans of the evaluation protocol", "[semantickitti]") {
-  const std::vector<long> scans = {71, 101, 46, 161, 96};
-  const std::vector<std::string> ranges = {"4390:4530:2", "150:250:1", "860:950:2", "2350:2670:2",
-                                           "630:820:2"};
-  REQUIRE(paper_segments().size() == scans.size());
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const FrameRange& range = paper_segments()[i].frames;
-    CHECK((*range.last - *range.first) / range.stride + 1 == scans[i]);
-    CHECK(paper_segments()[i].name == "kitti-" + paper_segments()[i].sequence);
-    CHECK(frame_range_text(range) == ranges[i]);
-  }
-}
-
 TEST_CASE("poses and scans that do not fit are told with both counts", "[semantickitti]") {
   const TemporaryFolder folder;
   write_sequence(folder, "", 3);
@@ -153,23 +140,6 @@ TEST_CASE("poses and scans that do not fit are told with both counts", "[semanti
   folder.write("poses.txt", kIdentityRow + kIdentityRow + "nan 0 0 0 0 1 0 0 0 0 1 0\n");
   check_says(open_error(folder.text()), {"poses.txt: 1 of 2 scans have no pose", "nan"});
   CHECK(open_sequence(folder.text(), with_frames("1:1")).scans->size() == 1);
-}
-
-TEST_CASE("another pose file is found by name or path", "[semantickitti]") {
-  const TemporaryFolder folder;
-  write_sequence(folder, "", 1);
-  folder.write("poses_suma_optim.txt", "1 0 0 9 0 1 0 0 0 0 1 0\n");
-  SequenceOptions options;
-  for (const std::string& name :
-       {std::string("poses_suma_optim.txt"), (folder / "poses_suma_optim.txt").string()}) {
-    options.poses = name;
-    const Sequence sequence = open_sequence(folder.text(), options);
-    CHECK(sequence.scans->pose(0).translation().x() == 9.0);
-    CHECK(sequence.record().poses == "poses_suma_optim.txt");
-  }
-  options.poses = "poses_gps.txt";
-  check_says(open_error(folder.text(), options),
-             {"'poses_gps.txt'", "poses.txt, poses_suma_optim.txt"});
 }
 
 TEST_CASE("times.txt gives seconds since frame 0", "[semantickitti]") {
@@ -209,18 +179,6 @@ TEST_CASE("labels have to fit their scan", "[semantickitti]") {
   const Sequence bare = open_sequence(folder.text(), {});
   CHECK_FALSE(bare.labels);
   CHECK_FALSE(bare.record().label_rule);
-}
-
-TEST_CASE("a truncated or empty scan is named", "[semantickitti]") {
-  const TemporaryFolder folder;
-  write_sequence(folder, "", 2);
-  folder.write("velodyne/000001.bin", std::string(40, 'x'));
-  check_says(open_error(folder.text()), {"000001.bin", "40 bytes", "after point 2"});
-  folder.write("velodyne/000001.bin", "");
-  const Sequence sequence = open_sequence(folder.text(), {});
-  CHECK(sequence.scans->load(1).points.empty());
-  CHECK(empty_scans_line(sequence) ==
-        "1 of 2 scans have no return, the first is 000001.bin; their masks are empty");
 }
 
 TEST_CASE("points without coordinates are left out and keep labels in step", "[semantickitti]") {

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/reading/fingerprint.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;
@@ -75,16 +75,6 @@ TEST_CASE("a level beam meets a moving box where it stands then", "[street]") {
   }
 }
 
-TEST_CASE("nothing lies beyond the range of the sensor", "[street]") {
-  const StreetBox box{{61, -9, 0}, {62, 9, 4}, {0, 0, 0}, 50};
-  const Sequence sequence = make_street(one_beam(0.0, 4), {box});
-  // 61, 60 and 59 m away: the end is included.
-  CHECK(sequence.scans->load(0).size() == 0);
-  CHECK(sequence.scans->load(1).size() == 1);
-  CHECK(sequence.scans->load(2).size() == 1);
-  CHECK(sequence.scans->sensor().range_max == 60.0);
-}
-
 TEST_CASE("every point of the street lies on what its label says", "[street]") {
   const Sequence sequence = open_sequence("street", {});
   REQUIRE(sequence.scans->size() == 50);
@@ -144,17 +134,4 @@ TEST_CASE("the street is the same at every call and opens by frames", "[street][
   CHECK(part.scans->load(1).index == 1);
   CHECK(part.labels->labels(part.scans->load(1)) ==
         sequence.labels->labels(sequence.scans->load(15)));
-}
-
-TEST_CASE("the street refuses what it cannot do", "[street]") {
-  SequenceOptions options;
-  options.poses = "poses.txt";
-  CHECK_THROWS_AS(open_sequence("street", options), UsageError);
-  options = {};
-  options.frames = parse_frame_range("0:50");
-  check_says(message_of<DataError>([&] { open_sequence("street", options); }),
-             {"street", "50 frames from 0 to 49"});
-  StreetParameters parameters;
-  parameters.columns = 0;
-  CHECK_THROWS_AS(make_street(parameters, {}), UsageError);
 }

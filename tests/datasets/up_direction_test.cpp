@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/reading/fingerprint.h"
 #include "tests/datasets/temporary_folder.h"
 
 using namespace raymoval;

@@ -70,22 +70,4 @@ TEST_CASE("undefined segments are left out and counted", "[averages]") {
   CHECK(segments.F1_of_means().value.value() == Approx(2 * 0.8 * 0.4 / 1.2));
 }
 
-TEST_CASE("without a defined segment there is no average", "[averages]") {
-  for (const std::size_t count : {0U, 2U}) {
-    Segments segments;
-    for (std::size_t i = 0; i < count; ++i) segments.add({}, {});
-    CHECK_FALSE(mean_of(segments.PR).value.has_value());
-    CHECK_FALSE(mean_of(segments.F1).value.has_value());
-    CHECK(mean_of(segments.F1).segments == 0);
-    CHECK_FALSE(segments.F1_of_means().value.has_value());
-    CHECK(segments.F1_of_means().segments == 0);
-  }
-}
-
-TEST_CASE("the harmonic mean of two zeros is zero", "[averages]") {
-  CHECK(harmonic_mean(0.0, 0.0) == 0.0);
-  CHECK(f1_from_percent(100.0, 0.0) == 0.0);
-  CHECK(f1_from_percent(100.0, 100.0) == 1.0);
-}
-
 }  // namespace raymoval

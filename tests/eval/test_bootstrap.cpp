@@ -64,12 +64,6 @@ TEST_CASE("blocks keep neighbours together and run on from the last scan", "[boo
   CHECK(inner.rates[0].high == 75.0);
 }
 
-TEST_CASE("nothing to divide by gives no interval, with a reason", "[bootstrap]") {
-  const Intervals none = bootstrap({{0, 0}, {0, 0}, {0, 0}, {0, 0}}, share);
-  CHECK_FALSE(none.rates[0].high.has_value());
-  CHECK_FALSE(none.rates[0].undefined_reason.empty());
-}
-
 TEST_CASE("voxels belong to the scan that gave them their label", "[bootstrap][worked]") {
   const MemorySequence sequence = worked_example();
   const LabelClasses classes{LabelRule{}};

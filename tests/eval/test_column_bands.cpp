@@ -30,25 +30,6 @@ TEST_CASE("a point on the edge of a range band belongs to the band above", "[col
   CHECK(tally.classes.at(40).all().points == 7);
 }
 
-TEST_CASE("a height is that above a road 1.73 m below the sensor", "[columns]") {
-  // 1 cm below and above each edge: 0.3, 1, 2 and 4 m above the road.
-  LabelledScan scan;
-  for (const double edge : {0.3, 1.0, 2.0, 4.0}) {
-    scan.add(5.0f, 0.0f, static_cast<float>(edge - 1.73 - 0.01), 40, true);
-    scan.add(5.0f, 0.0f, static_cast<float>(edge - 1.73 + 0.01), 40);
-  }
-  const MemorySequence sequence({scan});
-  const RemovalTally tally = tally_removals(sequence.input(), sequence.masks());
-  const auto& bands = tally.classes.at(40).by_height;
-  const std::vector<std::int64_t> points = {1, 2, 2, 2, 1}, removed = {1, 1, 1, 1, 0};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    CAPTURE(i);
-    CHECK(bands[i].points == points[i]);
-    CHECK(bands[i].removed == removed[i]);
-    CHECK(bands[i].kept() == points[i] - removed[i]);
-  }
-}
-
 TEST_CASE("a band of time is a tenth of the scans", "[columns]") {
   // Of four scans, the numbers 0, 1, 2 and 3 are in the tenths 0, 2, 5 and 7.
   std::vector<LabelledScan> scans(4);
@@ -106,18 +87,6 @@ TEST_CASE("the name of a column comes apart and together again", "[columns]") {
     CHECK(parts.band == expected.band);
     CHECK(parts.text() == expected.name);
   }
-}
-
-TEST_CASE("classes are called as the label rule calls them", "[columns]") {
-  LabelledScan scan;
-  scan.add(5.0f, 0.0f, 0.0f, 1, true);
-  const MemorySequence sequence({scan});
-  EvaluationInput input = sequence.input();
-  input.label_rule = LabelRule{"binary", {1}, {}, {}};
-  const auto values = column_values(tally_removals(input, sequence.masks()));
-  CHECK(std::any_of(values.begin(), values.end(), [](const ColumnValue& value) {
-    return value.name == "rejection [label-1]" && value.share.percent() == 100.0;
-  }));
 }
 
 TEST_CASE("every column of a sequence has one value and says why it has none", "[columns]") {

@@ -105,13 +105,6 @@ TEST_CASE("A count that is missing or new is worse") {
   CHECK_THAT(compared(kReference, less).worse.at(0), Contains("removed_points is new"));
 }
 
-TEST_CASE("A control may not move at all") {
-  ComparedCell run = cell_with(990, 10), reference = kReference;
-  run.control = reference.control = true;
-  CHECK(compared(run, reference).verdict() == ExitCode::kWorse);
-  CHECK(compared(reference, reference).verdict() == ExitCode::kDone);
-}
-
 TEST_CASE("A tolerance judges its rate only, and up to its end") {
   // PR 99.0 -> 98.9 with RR 90: F1 = 2 PR RR / (PR + RR) falls from 0.942857 to 0.942403.
   const ComparedCell run = cell_with(989, 20);
@@ -189,14 +182,6 @@ TEST_CASE(
       compare_results({{changed, kReference}, {}}, {{kReference}, {}}, ComparisonOptions{});
   CHECK(both.verdict() == ExitCode::kDone);
   CHECK_THAT(both.moved.at(0), Contains("m:v*: not in the reference"));
-}
-
-TEST_CASE("What is not comparable outweighs what is worse, and both are told") {
-  const ResultSet reference{{kReference, cell_with(500, 100, "other:v")}, {}};
-  const Comparison result = compare_results({{cell_with(980, 20)}, {}}, reference, {});
-  CHECK(result.verdict() == ExitCode::kCannotDo);
-  CHECK(result.worse.size() == 1);
-  CHECK_THAT(comparison_text(result), Contains("Not comparable:") && Contains("Worse:"));
 }
 
 TEST_CASE("A cell that fails is worse, one that no longer fails better") {
@@ -281,16 +266,6 @@ TEST_CASE("What is worse does not hide that only parameters keep cells from bein
   CHECK_FALSE(compare_results(run, reference, {}).parameters_only);
 }
 
-TEST_CASE("Across parameters a cell that does not differ in them is judged by its counts") {
-  CHECK(compared(cell_with(989, 10), kReference, across_parameters()).verdict() ==
-        ExitCode::kWorse);
-  ComparedCell run = kReference;
-  run.scores[0].counts[4].second = 4999;  // Moves no rate.
-  CHECK(compared(run, kReference, across_parameters()).verdict() == ExitCode::kWorse);
-  CHECK(compared(with_tau0(run, "0.4"), kReference, across_parameters()).verdict() ==
-        ExitCode::kDone);
-}
-
 TEST_CASE("Across parameters, data, protocol and counts of the truth must be the same") {
   ComparedCell run = with_tau0(kReference, "0.4");
   run.identity["data fingerprint"] = "xyz";
@@ -336,20 +311,6 @@ TEST_CASE("A rate of which nobody knows the better direction is told and not jud
   CHECK_THROWS_AS(compared(reference, reference, {{{"spread", 1.0}}, {}}), UsageError);
 }
 
-TEST_CASE("What holds for several cells is said once") {
-  ResultSet run, reference;
-  for (const char* name : {"a:v", "b:v", "c:v"}) {
-    for (const char* sequence : {"s", "t"}) {
-      reference.cells.push_back(cell_with(990, 20, name));
-      reference.cells.back().sequence = sequence;
-      run.cells.push_back(with_tau0(reference.cells.back(), "0.4"));
-    }
-  }
-  const std::string text = comparison_text(compare_results(run, reference, {}));
-  CHECK_THAT(text, Contains("s, t / a:v, b:v, c:v: parameter tau0 is 0.4"));
-  CHECK(std::count(text.begin(), text.end(), '\n') == 3);  // Heading, line, summary.
-}
-
 TEST_CASE("A reference without times is told once where times are to be judged") {
   ComparedCell timeless = kReference, other = cell_with(500, 100, "other:v");
   timeless.seconds_per_scan.reset();
@@ -366,13 +327,6 @@ TEST_CASE("A reference without times is told once where times are to be judged")
   CHECK(one.verdict() == ExitCode::kCannotDo);
   CHECK_THAT(one.incomparable.at(0), Contains("other:v"));
   CHECK(one.time_changes.size() == 2);
-}
-
-TEST_CASE("Times of another machine are said to be that") {
-  const ResultSet here{{kReference}, {}, "this processor"}, there{{kReference}, {}, "another"};
-  CHECK(compare_results(here, here, {}).times.size() == 1);
-  CHECK_THAT(compare_results(here, there, {}).times.at(1),
-             Contains("this processor") && Contains("another"));
 }
 
 TEST_CASE("Times of cells that ran at once are compared only with those of as many at once") {

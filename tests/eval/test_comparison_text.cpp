@@ -71,20 +71,6 @@ TEST_CASE("A comparison is told by verdict, cell by cell, with a summary") {
   CHECK(result.lines.size() == 4);
 }
 
-TEST_CASE("Up to six names are told, of seven the first five and how many more") {
-  const auto line = [](std::size_t cells) {
-    ResultSet run, reference;
-    for (std::size_t i = 0; i < cells; ++i) {
-      reference.cells.push_back(cell_of(std::string(1, static_cast<char>('a' + i)), 99.0, 990));
-    }
-    run.cells = {cell_of("z", 99.0, 990)};
-    const std::string text = comparison_text(compare_results(run, reference, {}));
-    return text.substr(0, text.find("\nMoved"));
-  };
-  CHECK(line(6) == "Not comparable:\n  s / a, b, c, d, e, f: missing in the run");
-  CHECK(line(7) == "Not comparable:\n  s / a, b, c, d, e and 2 more: missing in the run");
-}
-
 TEST_CASE("Sentences are put together if all but the sequence or the method is the same") {
   const auto told = [](const std::vector<ComparisonLine>& lines) {
     Comparison comparison;
@@ -115,17 +101,6 @@ TEST_CASE("A fall beyond its tolerance is told with what was allowed") {
              Contains("PR 99.0000 -> 98.5000 (-0.5000), "));
   CHECK_THAT(compared_one(run, reference, {{{"PR", 0.5}}, {}}).moved.at(0),
              Contains("PR 99.0000 -> 98.5000 (-0.5000), "));
-}
-
-TEST_CASE("Rates that differ by rounding only are the same") {
-  const ComparedCell reference = cell_of("a", 99.0, 990);
-  CHECK(compared_one(cell_of("a", 99.0 - 0.8e-9, 990), reference).same_cells == 1);
-  CHECK(compared_one(cell_of("a", 99.0 - 1.5e-9, 990), reference).verdict() == ExitCode::kWorse);
-  CHECK(compared_one(cell_of("a", 99.0 + 1.5e-9, 990), reference).better.size() == 1);
-  // The same for a fall that reaches its tolerance.
-  const ComparisonOptions tenth{{{"PR", 0.125}}, {}};
-  CHECK(compared_one(cell_of("a", 98.875 - 0.8e-9, 990), reference, tenth).worse.empty());
-  CHECK(compared_one(cell_of("a", 98.875 - 1.5e-9, 990), reference, tenth).worse.size() == 1);
 }
 
 TEST_CASE("A score that only the run has is told") {
@@ -181,66 +156,4 @@ TEST_CASE("Across parameters counts that move alone are told as that") {
   const Comparison result = compared_one(run, cell_of("a", 99.0, 990), options);
   CHECK(result.verdict() == ExitCode::kDone);
   CHECK(result.moved.back() == "s / a, erasor: counts moved, and no rate with them");
-}
-
-TEST_CASE("A change of nothing has no sign") {
-  CHECK(change_text(CountChange{"points", 5, 5}) == "points 5 -> 5 (0)");
-  CHECK(change_text(RateChange{"PR", 5.0, 5.0, {}}) == "PR 5.0000 -> 5.0000 (0.0000)");
-  CHECK(change_text(TimeChange{"s", "a", {}, 1.0, Change::kIncomparable}) ==
-        "no time on both sides; leave --time-band out");
-}
-
-TEST_CASE("The same words of other protocols and other words of one have lines of their own") {
-  ComparedCell reference = cell_of("a", 99.0, 990);
-  reference.scores.push_back(reference.scores[0]);
-  reference.scores[1].protocol = "other";
-  ComparedCell second = reference;
-  second.name = "b";
-  ComparedCell run = reference, run_second = second;
-  run.scores.clear();
-  run_second.scores.pop_back();
-  run_second.scores[0].identity["protocol version"] = "2";
-  const Comparison result = compare_results({{run, run_second}, {}}, {{reference, second}, {}}, {});
-  CHECK_THAT(comparison_text(result),
-             Contains("Not comparable:\n"
-                      "  s / a, erasor: not scored in the run\n"
-                      "  s / a, b, other: not scored in the run\n"
-                      "  s / b, erasor: protocol version is 2, the reference has 1\n"));
-}
-
-TEST_CASE("Times that are not there are not told") {
-  ComparedCell timed = cell_of("a", 99.0, 990), timeless = timed;
-  timed.seconds_per_scan = 0.1;
-  CHECK(compared_one(timeless, timed).times.empty());
-  CHECK(compared_one(timed, timeless).times.empty());
-  const ResultSet here{{timeless}, {}, "here"}, there{{timeless}, {}, "there"}, none;
-  CHECK(compare_results(here, there, {}).times.empty());
-  CHECK(compare_results(here, none, {{}, 3.0}).incomparable ==
-        std::vector<std::string>{"the reference has no cell"});
-}
-
-TEST_CASE("A rate that rises does not outweigh one that falls within its tolerance") {
-  ComparedCell reference = cell_of("a", 99.0, 990);
-  reference.scores[0].rates.push_back({"RR", 90.0, ""});
-  ComparedCell run = reference;
-  run.scores[0].rates = {{"PR", 98.9, ""}, {"RR", 95.0, ""}};
-  const Comparison result = compared_one(run, reference, {{{"PR", 0.5}}, {}});
-  CHECK(result.verdict() == ExitCode::kDone);
-  CHECK(result.better.empty());
-  CHECK(result.moved.size() == 1);
-}
-
-TEST_CASE("Across parameters a count that is gone, or one of the truth, is told and worse") {
-  ComparisonOptions options;
-  options.across_parameters = true;
-  ComparedCell reference = cell_of("a", 99.0, 990);
-  reference.scores[0].counts.emplace_back("static_voxels", 1000);
-  ComparedCell run = reference;
-  run.identity["parameter x"] = "1";
-  run.scores[0].counts[1].second = 1001;
-  CHECK_THAT(compared_one(run, reference, options).worse.at(0),
-             Contains("static_voxels 1000 -> 1001 (+1)"));
-  run.scores[0].counts = {{"static_voxels", 1000}};
-  CHECK_THAT(compared_one(run, reference, options).worse.at(0),
-             Contains("preserved_static is missing"));
 }

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "eval/columns/removal_tally.h"
-#include "eval/erasor/frame.h"
+#include "eval/erasor/maps/accumulate.h"
 #include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"
 
@@ -110,20 +110,6 @@ TEST_CASE("counts are summed over scans", "[counts]") {
   CHECK(score_by("dynamicmap", far_end.input(), far_end.masks()).count("static_points") == 1);
 }
 
-TEST_CASE("masks of more scans than there are are the method's error", "[counts]") {
-  const MemorySequence sequence({row_with({{40, false}, {252, true}})});
-  MaskStore masks(2);
-  masks.set(0, {0, 1});
-  masks.set(1, {0, 1});
-  for (const char* protocol : {"erasor", "dynamicmap", "dynamicmap-strict"}) {
-    CHECK_THROWS_AS(score_by(protocol, sequence.input(), masks), MethodError);
-  }
-  CHECK_THROWS_AS(tally_removals(sequence.input(), masks), MethodError);
-  EvaluationInput unlabelled = sequence.input();
-  unlabelled.labels = nullptr;
-  CHECK_THROWS_AS(tally_removals(unlabelled, sequence.masks()), DataError);
-}
-
 TEST_CASE("a kept point a metre and a half away is near within two metres", "[counts]") {
   LabelledScan scan;
   scan.add(5.0f, 0.0f, 0.0f, 40, true);
@@ -198,27 +184,6 @@ TEST_CASE("a point of a scan is in a cloud up to 5 cm away", "[counts][cloud]") 
   // Asked for with another distance, the masks are others.
   CHECK(estimate.masks(sequence.input(), 0.05).get(0) == Mask{0, 1, 1});
   CHECK(estimate.masks(sequence.input(), 0.07).get(0) == Mask{0, 0, 1});
-}
-
-TEST_CASE("each pass over the scans is told with its number of scans", "[counts]") {
-  const LabelledScan scan = row_with({{40, false}, {252, true}});
-  const MemorySequence sequence({scan, scan, scan});
-  std::FILE* told = std::tmpfile();
-  REQUIRE(told != nullptr);
-  Progress progress(ProgressStyle::kTerminal, told);
-  EvaluationInput input = sequence.input();
-  input.progress = &progress;
-  (void)score_by("erasor", input, sequence.masks());
-  (void)score_by("dynamicmap", input, sequence.masks());
-  std::rewind(told);
-  std::string text(4096, '\0');
-  text.resize(std::fread(text.data(), 1, text.size(), told));
-  std::fclose(told);
-  for (const char* task : {"ground truth map: 0 of 3", "ground truth points: 0 of 3",
-                           "scoring: 0 of 3", "scoring, pass 3: 0 of 3"}) {
-    CHECK_THAT(text, Catch::Contains(task));
-  }
-  CHECK_THAT(text, Catch::EndsWith("\r\x1b[K"));  // The last line is cleared.
 }
 
 TEST_CASE("the frame of ERASOR's map tool has the axes forward, left and up", "[counts][frame]") {

@@ -130,36 +130,6 @@ TEST_CASE("a distance of metres reaches as far as it says", "[dynamicmap]") {
   CHECK(score_scan(scan, {{"distance", 3.0}}).count("present_static_points") == 3);
 }
 
-TEST_CASE("without any distance a removed point is present where a kept one stands",
-          "[dynamicmap]") {
-  LabelledScan scan;
-  scan.add(8.0f, 0.0f, 0.0f, 40);
-  scan.add(8.0f, 0.0f, 0.0f, 40, true);
-  scan.add(8.0f, 1.0f, 0.0f, 40, true);
-  CHECK(score_scan(scan, {{"distance", 0.0}}).count("present_static_points") == 2);
-}
-
-TEST_CASE("labels of the estimate are not read", "[dynamicmap]") {
-  // The road is kept 3 cm under a removed wheel; a removed wall has a kept car beside it. By index
-  // and by cells of 1 m all is as the masks say.
-  LabelledScan scan;
-  scan.add(8.50f, 0.5f, 0.50f, 40);
-  scan.add(8.50f, 0.5f, 0.53f, 252, true);
-  scan.add(12.50f, 0.5f, 0.50f, 50, true);
-  scan.add(12.50f, 0.54f, 0.50f, 252);
-  const ProtocolResult result = score_scan(scan);
-  CHECK(result.rate("SA") == 100.0);
-  CHECK(result.rate("DA") == 0.0);
-  CHECK(result.rate("AA") == 0.0);
-  CHECK(result.rate("HA") == 0.0);
-  CHECK(result.count("kept_static_points") == 1);
-  CHECK(result.count("flagged_dynamic_points") == 1);
-  const ProtocolResult strict = score_scan(scan, {{"voxel_size", 1.0}}, "dynamicmap-strict");
-  CHECK(strict.count("mixed_voxels") == 2);
-  CHECK(strict.rate("SA") == 50.0);
-  CHECK(strict.rate("DA") == 50.0);
-}
-
 TEST_CASE("ignored points are in no denominator, but may stand in the map", "[dynamicmap]") {
   LabelledScan scan;
   scan.add(8.0f, 0.0f, 0.0f, 40);

@@ -78,14 +78,6 @@ TEST_CASE("an empty estimate scores 0, 100, 0 with a warning", "[erasor][edge]")
   }
 }
 
-TEST_CASE("PR + RR = 0 gives F1 = 0", "[erasor][edge]") {
-  // The static voxel is lost and the moving one stays.
-  const ProtocolResult result = score_row({{40, true}, {252, false}});
-  CHECK(result.rate("PR") == 0.0);
-  CHECK(result.rate("RR") == 0.0);
-  CHECK(result.rate("F1") == 0.0);
-}
-
 TEST_CASE("no truth is an error that says where the points went", "[erasor][edge]") {
   LabelledScan scan;
   scan.add(1.0f, 0.0f, 0.0f, 40);   // Cropped.
@@ -152,14 +144,6 @@ TEST_CASE("labels that do not fit their scan are a data error", "[erasor][edge]"
   EvaluationInput unlabelled = sequence.input();
   unlabelled.labels = nullptr;
   CHECK_THROWS_AS(erasor_protocol()->open(unlabelled), DataError);
-}
-
-TEST_CASE("a scorer outlives its protocol and serves several masks", "[erasor][edge]") {
-  const MemorySequence sequence({row_of({{40, false}, {252, false}})});
-  const auto scorer = erasor_protocol()->open(sequence.input());
-  CHECK(scorer->score(sequence.constant_masks(false)).rate("PR") == 100.0);
-  CHECK(scorer->score(sequence.constant_masks(true)).rate("PR") == 0.0);
-  CHECK(scorer->score(sequence.constant_masks(false)).rate("RR") == 0.0);
 }
 
 TEST_CASE("of two equally near partners the first in cell order counts", "[erasor][edge]") {
@@ -300,12 +284,6 @@ TEST_CASE("scans that change after a protocol was opened are bad data", "[erasor
     CHECK_THAT(message_of<DataError>([&] { (void)scorer->score(sequence.masks()); }),
                Contains("changed"));
   }
-}
-
-TEST_CASE("options come back as given, unknown ones are refused", "[erasor][edge]") {
-  CHECK(erasor_protocol()->options() == protocol_defaults("erasor"));
-  CHECK_THROWS_AS(make_protocol("erasor", {{"voxel_sice", 0.2}}), ConfigurationError);
-  CHECK_THAT(message_of<UsageError>([] { (void)make_protocol("erasr", {}); }), Contains("erasor"));
 }
 
 }  // namespace raymoval::test

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "eval/erasor/frame.h"
 #include "eval/erasor/maps/accumulate.h"
 #include "eval/points/cloud_masks.h"
 #include "tests/eval/memory_sequence.h"

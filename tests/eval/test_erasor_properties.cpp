@@ -88,15 +88,6 @@ TEST_CASE("a world 100 km away scores as the slow protocol says", "[erasor][orac
   }
 }
 
-TEST_CASE("a larger cloud scores as the slow protocol says", "[erasor][oracle]") {
-  CloudShape shape;
-  shape.seed = 300;
-  shape.scans = 2;
-  shape.points = 3000;
-  shape.extent = 2.5f;
-  check_against_slow(random_sequence(shape), {});
-}
-
 TEST_CASE("beyond the lattice is an error and no wrap-around", "[erasor]") {
   CloudShape shape;
   shape.offset = {3e6, 0.0, 0.0};

@@ -26,14 +26,6 @@ bool match(const Eigen::Vector3d& offset) {
 
 }  // namespace
 
-TEST_CASE("the square of half a voxel's diagonal is the number that it is", "[erasor]") {
-  // 3 s^2 / 4. For 0.2 m the protocol says 0.03; 0.75 * 0.2 * 0.2 would be another double.
-  CHECK(matching_bound(0.2) == 0.03);
-  CHECK(matching_bound(0.25) == 0.046875);
-  CHECK(matching_bound(0.5) == 0.1875);
-  CHECK(matching_bound(2.0) == 3.0);
-}
-
 TEST_CASE("voxels match nearer than half a diagonal in any direction", "[erasor]") {
   // The bound is 3/64 m^2. All of these are exact: 1/8 along each axis is 3/64.
   CHECK_FALSE(match({0.125, 0.125, 0.125}));

@@ -89,17 +89,6 @@ TEST_CASE("mos: ignored, unlabelled and far points are on neither side") {
   CHECK(*with_unlabelled.rate("IoU") == Approx(100.0 / 3));
 }
 
-TEST_CASE("mos: where 0 and 1 are the classes themselves they count") {
-  LabelledScan scan;
-  scan.add(5, 0, 0, 1, true);
-  scan.add(6, 0, 0, 1, false);
-  scan.add(7, 0, 0, 0, false);
-  const MemorySequence sequence({scan});
-  LabelRule rule;
-  rule.moving = {1};
-  CHECK(*scored(sequence, sequence.masks(), rule).rate("recall") == 50.0);
-}
-
 TEST_CASE("mos: without a moving point nothing is said, and without any point it is an error") {
   LabelledScan scan;
   scan.add(5, 0, 0, kRoad, true);

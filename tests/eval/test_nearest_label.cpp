@@ -69,11 +69,4 @@ TEST_CASE("mixed ties are counted over all cells", "[voxels]") {
   CHECK(voxels.mixed_label_ties == 1);
 }
 
-TEST_CASE("the table of classes has every semantic id", "[voxels]") {
-  const LabelClasses classes(LabelRule{"rule", {65535}, {65534}});
-  CHECK(classes.moving(0xABCDFFFFU));
-  CHECK(classes.of(65534) == LabelClass::kIgnored);
-  CHECK(classes.of(65533) == LabelClass::kStatic);
-}
-
 }  // namespace raymoval

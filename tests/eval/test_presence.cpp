@@ -83,13 +83,6 @@ TEST_CASE("with little room the search takes more passes and finds the same",
   }
 }
 
-TEST_CASE("where all is kept or all is removed nothing is searched", "[dynamicmap]") {
-  const MemorySequence sequence = random_sequence({});
-  const EvaluationInput input = sequence.input();
-  CHECK(count(input, sequence.constant_masks(false), {}, {}).passes == 1);
-  CHECK(count(input, sequence.constant_masks(true), {}, {}).passes == 1);
-}
-
 TEST_CASE("points out of range may lie beyond the lattice", "[dynamicmap]") {
   LabelledScan scan;
   scan.add(5.0f, 0.0f, 0.0f, 40, true);

@@ -99,21 +99,6 @@ TEST_CASE("known answers have the rates that the protocols say", "[registry]") {
   CHECK(checked == 5 + 5 + 5 + 6);
 }
 
-TEST_CASE("a rate knows its largest and its best value", "[registry]") {
-  CHECK(rate_spec("PR").largest() == 100.0);
-  CHECK(rate_spec("F1").largest() == 1.0);
-  CHECK(rate_spec("PR").best() == 100.0);
-  CHECK(rate_spec("PR").is_better(2.0, 1.0));
-  CHECK_FALSE(rate_spec("PR").is_better(1.0, 1.0));
-  const RegisteredToy toy;
-  CHECK(rate_spec("mistakes").best() == 0.0);
-  CHECK(rate_spec("mistakes").is_better(1.0, 2.0));
-  CHECK_FALSE(rate_spec("mistakes").is_better(1.0, 1.0));
-  CHECK(rate_text("PR", 12.34567) == "12.346");
-  CHECK(rate_text("F1", 0.123456) == "0.1235");
-  CHECK(rate_text("nobody knows it", 1.0) == "1.000");
-}
-
 TEST_CASE("a protocol, a rate or a count that is not there is told", "[registry]") {
   CHECK_THROWS_WITH(protocol_entry("erasr"),
                     Catch::Contains("'erasr' is unknown") && Catch::Contains("erasor"));
@@ -158,23 +143,6 @@ TEST_CASE("labels that are found again make the oracle uncertain", "[registry]")
   CHECK(erasor.oracle_is_uncertain(options));
 }
 
-TEST_CASE("the rates of all protocols stand in the order of the protocols", "[registry]") {
-  CHECK(names_of(rate_specs(), false) == std::vector<std::string>{"PR", "RR", "F1", "SA", "DA",
-                                                                  "AA", "HA", "precision", "recall",
-                                                                  "IoU"});
-  CHECK(names_of(rate_specs(), true) ==
-        std::vector<std::string>{"PR_no_truck", "RR_no_truck", "F1_no_truck"});
-  CHECK(default_protocol() == "erasor");
-  {
-    const RegisteredToy toy;
-    CHECK(names_of(rate_specs(), false).back() == "mistakes");
-    CHECK(protocol_entries().back().name == "toy");
-    CHECK(is_truth_count("toy_static"));
-  }
-  CHECK(find_rate_spec("mistakes") == nullptr);
-  CHECK_FALSE(is_truth_count("toy_static"));
-}
-
 TEST_CASE("a protocol that contradicts another is refused", "[registry]") {
   ProtocolEntry entry = toy_protocol_entry();
   entry.name = "erasor";
@@ -190,14 +158,6 @@ TEST_CASE("a protocol that contradicts another is refused", "[registry]") {
   CHECK_THROWS_WITH(register_protocol(entry), Catch::Contains("'PR'"));
   CHECK(protocol_entries().size() == 4);
   CHECK(names_of(rate_specs(), false).size() == 10);
-}
-
-TEST_CASE("a protocol need not score clouds", "[registry]") {
-  const RegisteredToy toy;
-  const MemorySequence sequence = small_street();
-  const std::vector<Eigen::Vector3f> points;
-  const auto scorer = make_protocol("toy", {})->open(sequence.input());
-  CHECK_THROWS_AS(scorer->score_cloud(CloudEstimate(points)), UsageError);
 }
 
 TEST_CASE("where lower is better a rise of a rate is worse and a fall better", "[registry]") {

@@ -16,7 +16,7 @@ compiles() {
   local columns document
   for columns in onecolumn twocolumn; do
     document=${1%.tex}_$columns
-    printf '%s\n' "\\documentclass[$columns]{article}" '\usepackage{booktabs}' '\begin{document}' \
+    printf '%s\n' "\\documentclass[$columns]{article}" '\usepackage{booktabs,graphicx}' '\begin{document}' \
       "\\input{$1}" '\end{document}' >"$document.tex"
     holds "$1 compiles in $columns" pdflatex -interaction=nonstopmode -halt-on-error "$document.tex"
     holds "$1 fits the page in $columns" test -z "$(grep -E '^Overfull .hbox \(([6-9]|[0-9]{2,})' \

@@ -87,13 +87,6 @@ TEST_CASE("range-adaptive clusters: the same gap joins far away and not nearby")
   CHECK(range_adaptive_clusters({}, {}, 0.3, 0.02).empty());
 }
 
-TEST_CASE("range-adaptive clusters with a reach of thousands of cells") {
-  // Reach 0.01 + 0.2 * 100 = 20.01 m, cells of 6 mm.
-  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {50, 0, 0}, {20, 0, 0}, {70.02, 0, 0}};
-  CHECK(range_adaptive_clusters(points, {100, 100, 100, 100}, 0.01, 0.2) ==
-        std::vector<int>{0, 1, 0, 2});
-}
-
 TEST_CASE("disjoint sets are numbered by their first elements") {
   DisjointSets sets(5);
   sets.join(4, 1);

@@ -46,15 +46,6 @@ TEST_CASE("a method's name is taken once and it has a variant") {
   CHECK_THROWS_AS(methods.add(bare), ConfigurationError);
 }
 
-TEST_CASE("main parameters are among the parameters") {
-  MethodRegistry methods;
-  MethodEntry entry = noop_entry();
-  entry.main_parameters = {"limit"};
-  CHECK_THROWS_WITH(methods.add(entry), Catch::Contains("'limit'"));
-  entry.parameters = {{"limit", 10.0, {}, {}}};
-  CHECK_NOTHROW(methods.add(entry));
-}
-
 TEST_CASE("every parameter's default is legal and says what it does") {
   for (const auto& entry : MethodRegistry::built_in().entries()) {
     for (const ParameterSpec& spec : entry->parameters) {

@@ -207,18 +207,6 @@ class Runs(unittest.TestCase):
         arrays = raymoval.from_arrays([np.ones((3, 3), np.float32)], [np.eye(4)])
         raised(self, raymoval.UsageError, "made of arrays", raymoval.run, arrays, "noop", **QUIET)
 
-    def test_pages(self):
-        run = self.run_into("page", [KeepAll], keep_removals=True)
-        page = raymoval.show(run, points=5000, **QUIET)
-        self.assertIn("keep_all:python", page.html)
-        self.assertIn("<iframe srcdoc=", page._repr_html_())
-        page.save(f"{self.folder}/page.html")
-        self.assertEqual(Path(f"{self.folder}/page.html").read_text(), page.html)
-        masks = [scan.moving for scan in self.sequence]
-        self.assertIn("street, cleaned", raymoval.show(self.sequence, masks, **QUIET).html)
-        raised(self, raymoval.UsageError, "the masks are missing", raymoval.show, self.sequence,
-               **QUIET)
-
 
 class Sequences(unittest.TestCase):
     def test_what_a_sequence_tells(self):

@@ -63,12 +63,6 @@ TEST_CASE("drop-out grows with range, grazing angle and darkness, and glass hard
   CHECK(returned(140.0, Material::kBrick) < returned(103.9, Material::kBrick));
 }
 
-TEST_CASE("nothing comes back from beyond the range limits") {
-  const SensorFile sensor = window(R"(, "dropout": 0)");
-  CHECK(sweep_of_wall(sensor, 160.0, Material::kPerfect).points.empty());
-  CHECK(sweep_of_wall(sensor, 0.3, Material::kPerfect).points.empty());
-}
-
 TEST_CASE("a wide beam at an edge returns ranges between near surfaces, a thin one never") {
   // A step of 0.4 m: shorter than the pulse (0.75 m), so a beam that meets both blends them.
   World world;

@@ -29,17 +29,6 @@ TEST_CASE("every built-in sensor gives unit directions inside its model") {
   }
 }
 
-TEST_CASE("the HDL-64E has 64 beams of 2083 directions in two banks") {
-  const SensorFile sensor = parse_sensor(find_sensor("hdl64e"));
-  CHECK(sensor.shots(0, 1).size() == 64U * 2083U);
-  // The upper bank steps by a third of a degree, the lower by half a degree (jitter 0.02).
-  const double degree = 3.14159265358979 / 180.0;
-  CHECK(sensor.elevations[0] - sensor.elevations[31] ==
-        Approx(10.33 * degree).margin(0.15 * degree));
-  CHECK(sensor.elevations[32] - sensor.elevations[63] ==
-        Approx(16.0 * degree).margin(0.15 * degree));
-}
-
 TEST_CASE("a rosette draws new directions every sweep, a raster the same") {
   const auto differs = [](const std::string& name) {
     const SensorFile sensor = parse_sensor(find_sensor(name));

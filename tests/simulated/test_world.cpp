@@ -97,44 +97,6 @@ TEST_CASE("an object that moves at any time is labelled moving throughout") {
   CHECK(queue_label(30) == kLabelCar);
 }
 
-TEST_CASE("a car that parks keeps its moving label while it stands") {
-  SimulationOptions options;
-  options.scene = "suburb";
-  const auto sequence = make_simulated(options);
-  const double end = 0.1 * static_cast<double>(sequence->size() - 1);
-  bool found = false;
-  for (const MoverTruth& mover : sequence->movers(end)) {
-    if (mover.kind != "car" || !mover.present || mover.speed_mps != 0.0) continue;
-    CHECK(mover.moves);
-    CHECK(mover.semantic == kLabelMovingCar);
-    found = true;
-  }
-  CHECK(found);
-}
-
-TEST_CASE("a speed profile travels the area below it") {
-  // Stationary until 2 s, then accelerates by 2 m/s^2 up to 8 m/s at 6 s (16 m), then keeps it.
-  const SpeedProfile profile({{0, 0}, {2, 0}, {6, 8}});
-  CHECK(profile.distance(1.0) == 0.0);
-  CHECK(profile.distance(4.0) == Approx(4.0));
-  CHECK(profile.distance(6.0) == Approx(16.0));
-  CHECK(profile.distance(10.0) == Approx(48.0));
-  CHECK(profile.speed(4.0) == Approx(4.0));
-  CHECK_THROWS_AS(SpeedProfile({{1, 0}, {1, 5}}), ConfigurationError);
-}
-
-TEST_CASE("a path keeps its ends, its length and the side of an offset") {
-  const Path straight({{10, 5}, {40, 45}}, false);
-  CHECK(straight.length() == Approx(50.0));
-  CHECK((straight.at(25.0) - Eigen::Vector2d(25, 25)).norm() < 1e-9);
-  // Left of the direction (0.6, 0.8) is (-0.8, 0.6).
-  CHECK((straight.at(25.0, 2.0) - Eigen::Vector2d(23.4, 26.2)).norm() < 1e-9);
-  const Path loop({{0, 0}, {100, 0}, {100, 100}, {0, 100}}, true);
-  CHECK((loop.at(loop.length() + 7.0) - loop.at(7.0)).norm() < 1e-9);
-  CHECK_THROWS_AS(Path({{1, 1}}, false), ConfigurationError);
-  CHECK_THROWS_AS(Path({{1, 1}, {1, 1}}, false), ConfigurationError);
-}
-
 TEST_CASE("a vehicle stands on its road, a kerb lies higher than the carriageway") {
   Terrain terrain;
   Road road;

@@ -4,16 +4,43 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/scan/confidence_store.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
-#include "datasets/clouds/las/las_head.h"
 #include "datasets/records/number_types.h"
 
 namespace raymoval {
 namespace {
+
+constexpr std::uint64_t kRowsPerBlock = 16384;
+constexpr std::size_t kCellsPerPiece = 65536;
+
+bool is_position(const PointField& field) {
+  constexpr std::string_view kAxes = "xyzXYZ";
+  return field.count == 1 && field.name.size() == 1 &&
+         kAxes.find(field.name) != std::string_view::npos;
+}
+
+/// The bytes of x, y or z in a map whose points are not the stored ones.
+int coordinate_size(const PointField& stored, Coordinates coordinates) {
+  if (coordinates == Coordinates::kDouble) return 8;
+  return stored.type == 'F' ? stored.size : 4;
+}
+
+const PointField* named(const RecordLayout& layout, const std::string& name) {
+  return layout.find({name});
+}
+
+bool same_kind(const PointField& a, const PointField& b) {
+  return a.type == b.type && a.size == b.size && a.count == b.count;
+}
+
+bool is_real(const PointField* field, int count) {
+  return field != nullptr && field->type == 'F' && field->count == count;
+}
 
 /// Reads a field of the stored rows that `scan` has points of, one after another.
 void read_axis(const Scan& scan, const PointRecords& stored, const PointField& field, int axis,
@@ -98,6 +125,168 @@ PointRecords copied_rows(const Scan& scan, const PointRecords& stored, const Rec
 
 }  // namespace
 
+VoxelRows::VoxelRows(const RecordLayout& layout, double cell_size, const Eigen::Vector3d& origin)
+    : layout_(layout),
+      at_(position_fields(layout, "a map")),
+      keeps_rows_(layout.fields.size() > 3),
+      cell_size_(cell_size),
+      origin_(origin) {
+  if (const PointField* found = intensity_field(layout)) {
+    intensity_ = *found;
+    keeps_rows_ = layout.fields.size() > 4;
+  }
+}
+
+std::byte* VoxelRows::row_of(const Cell& cell) const {
+  return blocks_[cell.row / kRowsPerBlock].get() + cell.row % kRowsPerBlock * layout_.row_bytes;
+}
+
+void VoxelRows::keep_row(Cell& cell, bool is_new, const std::byte* row) {
+  if (is_new) {
+    cell.row = cells_.size() - 1;
+    if (cell.row % kRowsPerBlock == 0) {
+      blocks_.push_back(std::make_unique<std::byte[]>(kRowsPerBlock * layout_.row_bytes));
+    }
+  }
+  std::memcpy(row_of(cell), row, layout_.row_bytes);
+}
+
+void VoxelRows::add(const ScanRows& scan, std::size_t point) {
+  const Eigen::Vector3d offset = scan.world[point] - origin_;
+  const VoxelIndex index = voxel_index(offset, 1.0 / cell_size_);
+  const auto [place, is_new] = cells_.try_emplace(voxel_key(index));
+  Cell& cell = place.value();
+  cell.sum += offset;
+  if (intensity_) cell.intensity += scan.rows.value(point, *intensity_);
+  ++cell.count;
+  if (!keeps_rows_) return;
+  const Eigen::Vector3d from_middle =
+      offset / cell_size_ - index.cast<double>() - Eigen::Vector3d::Constant(0.5);
+  const auto distance = static_cast<float>(from_middle.squaredNorm());
+  if (!(distance < cell.from_middle)) return;
+  cell.from_middle = distance;
+  keep_row(cell, is_new, scan.rows.row(point));
+}
+
+void VoxelRows::append(const Cell& cell, ScanRows& piece) const {
+  const std::size_t place = piece.world.size();
+  const auto count = static_cast<double>(cell.count);
+  piece.world.push_back(origin_ + cell.sum / count);
+  piece.rows.bytes.resize(piece.rows.bytes.size() + layout_.row_bytes);
+  piece.rows.width = place + 1;
+  if (keeps_rows_) std::memcpy(piece.rows.row(place), row_of(cell), layout_.row_bytes);
+  const Eigen::Vector3d& mean = piece.world.back();
+  piece.rows.set_value(place, at_.x, mean.x());
+  piece.rows.set_value(place, at_.y, mean.y());
+  piece.rows.set_value(place, at_.z, mean.z());
+  if (intensity_) piece.rows.set_value(place, *intensity_, cell.intensity / count);
+}
+
+void VoxelRows::take(const std::function<void(const ScanRows& piece)>& give) {
+  std::vector<VoxelKey> keys;
+  keys.reserve(cells_.size());
+  for (const auto& [key, cell] : cells_) keys.push_back(key);
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t first = 0; first < keys.size(); first += kCellsPerPiece) {
+    ScanRows piece{{layout_, {}, 0, 1}, {}};
+    const std::size_t end = std::min(keys.size(), first + kCellsPerPiece);
+    piece.rows.bytes.reserve((end - first) * layout_.row_bytes);
+    for (std::size_t i = first; i < end; ++i) append(cells_.at(keys[i]), piece);
+    give(piece);
+  }
+  cells_.clear();
+  blocks_.clear();
+}
+
+RecordLayout map_layout(const RecordLayout& stored, PointFrame frame, Coordinates coordinates,
+                        const std::string& where) {
+  position_fields(stored, where);
+  if (frame == PointFrame::kWorld) return stored;
+  const bool fits = std::all_of(stored.fields.begin(), stored.fields.end(), [&](const auto& field) {
+    return !is_position(field) ||
+           (field.type == 'F' && field.size == coordinate_size(field, coordinates));
+  });
+  if (fits) return stored;
+  RecordLayout layout;
+  for (const PointField& field : stored.fields) {
+    if (is_position(field)) {
+      layout.add(field.name, 'F', coordinate_size(field, coordinates));
+    } else {
+      layout.add(field.name, field.type, field.size, field.count);
+    }
+  }
+  return layout;
+}
+
+RecordLayout plain_layout(Coordinates coordinates) {
+  RecordLayout layout;
+  for (const char* axis : {"x", "y", "z"}) {
+    layout.add(axis, 'F', coordinates == Coordinates::kDouble ? 8 : 4);
+  }
+  layout.add("intensity", 'F', 4);
+  return layout;
+}
+
+std::string field_difference(const RecordLayout& layout, const RecordLayout& expected) {
+  for (const PointField& field : expected.fields) {
+    const PointField* found = named(layout, field.name);
+    if (found == nullptr) return "has no field '" + field.name + "'";
+    if (!same_kind(*found, field)) return "has " + found->text() + " in place of " + field.text();
+  }
+  for (const PointField& field : layout.fields) {
+    if (named(expected, field.name) == nullptr) return "has a field '" + field.name + "' as well";
+  }
+  return "";
+}
+
+std::vector<NormalFields> normal_fields(const RecordLayout& layout) {
+  std::vector<NormalFields> normals;
+  for (const auto& names :
+       {std::array{"normal_x", "normal_y", "normal_z"}, std::array{"nx", "ny", "nz"}}) {
+    const PointField *x = layout.find({names[0]}), *y = layout.find({names[1]}),
+                     *z = layout.find({names[2]});
+    if (is_real(x, 1) && is_real(y, 1) && is_real(z, 1)) normals.push_back({*x, *y, *z});
+  }
+  const PointField* whole = layout.find({"normal"});
+  if (!is_real(whole, 3)) return normals;
+  NormalFields parts{*whole, *whole, *whole};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].count = 1;
+    parts[i].offset += i * static_cast<std::size_t>(whole->size);
+  }
+  normals.push_back(parts);
+  return normals;
+}
+
+const PointField* intensity_field(const RecordLayout& layout) {
+  for (const std::string_view name : intensity_names()) {
+    const PointField* field = layout.find({name});
+    if (field != nullptr && field->count == 1) return field;
+  }
+  return nullptr;
+}
+
+RowCopy::RowCopy(const RecordLayout& from, const RecordLayout& to) {
+  if (from == to) {
+    is_whole_ = true;
+    pieces_ = {{0, 0, from.row_bytes}};
+    return;
+  }
+  for (const PointField& field : to.fields) {
+    const PointField* source = named(from, field.name);
+    if (source == nullptr || !same_kind(*source, field)) continue;
+    const Piece piece{source->offset, field.offset, field.bytes()};
+    const bool goes_on = !pieces_.empty() &&
+                         pieces_.back().from + pieces_.back().bytes == piece.from &&
+                         pieces_.back().to + pieces_.back().bytes == piece.to;
+    if (goes_on) {
+      pieces_.back().bytes += piece.bytes;
+    } else {
+      pieces_.push_back(piece);
+    }
+  }
+}
+
 MapRows::MapRows(const Sequence& sequence, Coordinates coordinates, Progress& progress,
                  const std::atomic<bool>& cancel)
     : sequence_(sequence) {
@@ -170,16 +359,6 @@ void MapRows::turn_normals(const Scan& scan, PointRecords& rows) const {
   }
 }
 
-std::shared_ptr<const LasNotes> MapRows::las_notes(const PointRecords& stored) const {
-  if (stored.las == nullptr || frame_ == PointFrame::kWorld) return stored.las;
-  // A grid of 0.1 mm covers 200 km; the grid of a scan may only cover the surroundings of the
-  // sensor.
-  constexpr double kFinest = 1e-4;
-  auto notes = std::make_shared<LasNotes>(*stored.las);
-  notes->scale = notes->scale.cwiseAbs().cwiseMax(kFinest);
-  return notes;
-}
-
 ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
   ScanRows result;
   if (stored == nullptr) {
@@ -192,7 +371,6 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
                       "when no program writes there.");
     }
     result.rows = copied_rows(scan, *stored, layout_);
-    result.rows.las = las_notes(*stored);
   }
   result.world = world_points(scan, stored);
   if (stored == nullptr || frame_ == PointFrame::kSensor) {
@@ -213,22 +391,24 @@ MapPrecision map_precision(const ScanSource& scans) {
   return precision;
 }
 
-RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size) {
+RecordLayout layout_with_confidence(const RecordLayout& layout) {
+  std::string name = "confidence";
   while (layout.find({name}) != nullptr) name = "raymoval_" + name;
   RecordLayout more = layout;
-  more.add(std::move(name), type, size);
+  more.add(std::move(name), 'F', sizeof(float));
   return more;
-}
-
-RecordLayout layout_with_confidence(const RecordLayout& layout) {
-  return layout_with_field(layout, "confidence", 'F', sizeof(float));
 }
 
 ScanRows rows_with_confidence(const ScanRows& rows, const RecordLayout& layout,
                               const std::string& steps) {
-  return rows_with_field(rows, layout, [&](std::size_t i) {
-    return confidence_of_steps(static_cast<std::uint8_t>(steps[i]));
-  });
+  const std::size_t size = rows.rows.size(), bytes = rows.rows.layout.row_bytes;
+  ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
+  for (std::size_t i = 0; i < size; ++i) {
+    const float value = confidence_of_steps(static_cast<std::uint8_t>(steps[i]));
+    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
+    std::memcpy(result.rows.row(i) + bytes, &value, sizeof value);
+  }
+  return result;
 }
 
 }  // namespace raymoval

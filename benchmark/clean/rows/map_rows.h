@@ -2,19 +2,70 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "benchmark/clean/rows/row_layout.h"
 #include "core/progress.h"
 #include "core/scan/scan_source.h"
+#include "core/scan/voxel_key.h"
 #include "datasets/clouds/cloud_file.h"
+#include "datasets/records/point_records.h"
+#include "datasets/records/record_source.h"
 #include "datasets/sequence.h"
 
 namespace raymoval {
+
+/// The layout of the rows of a map that is made of records of `stored`: the same fields in the same
+/// order. If points are stored in the sensor frame, x, y and z become float64 for
+/// `Coordinates::kDouble`, and whole numbers become float32. All other fields keep their types, and
+/// rows keep their padding.
+/// @throws DataError if x, y or z is missing
+RecordLayout map_layout(const RecordLayout& stored, PointFrame frame, Coordinates coordinates,
+                        const std::string& where);
+
+/// The layout of a map of points without records: x y z intensity.
+RecordLayout plain_layout(Coordinates coordinates);
+
+/// The difference between the fields of `layout` and `expected`, regardless of order and offset:
+/// "has no field ring", "has the field rgb as well". Empty if there is none.
+std::string field_difference(const RecordLayout& layout, const RecordLayout& expected);
+
+/// Three real numbers: the surface normal of a point.
+using NormalFields = std::array<PointField, 3>;
+/// The normals among the fields: normal_x normal_y normal_z, nx ny nz, or one field `normal` with
+/// three values.
+std::vector<NormalFields> normal_fields(const RecordLayout& layout);
+
+/// The field with the strength of the return; null if there is none.
+const PointField* intensity_field(const RecordLayout& layout);
+
+/// Copies records of one layout into rows of another that has fields of the same names. The caller
+/// fills fields whose type differs.
+class RowCopy {
+ public:
+  RowCopy(const RecordLayout& from, const RecordLayout& to);
+  void copy(const std::byte* from, std::byte* to) const {
+    for (const Piece& piece : pieces_) {
+      std::memcpy(to + piece.to, from + piece.from, piece.bytes);
+    }
+  }
+  /// Whether rows keep their bytes.
+  [[nodiscard]] bool is_whole() const { return is_whole_; }
+
+ private:
+  struct Piece {
+    std::size_t from = 0, to = 0, bytes = 0;
+  };
+  std::vector<Piece> pieces_;
+  bool is_whole_ = false;
+};
 
 /// Settings by which the coordinates of a map lose no digits.
 struct MapPrecision {
@@ -59,8 +110,6 @@ class MapRows {
   void check_fields(const Sequence& sequence, Progress& progress, const std::atomic<bool>& cancel);
   [[nodiscard]] std::vector<Eigen::Vector3d> world_points(const Scan& scan,
                                                           const PointRecords* stored) const;
-  /// The parts of a scan's LAS header that a LAS file of the map takes over.
-  [[nodiscard]] std::shared_ptr<const LasNotes> las_notes(const PointRecords& stored) const;
   void turn_normals(const Scan& scan, PointRecords& rows) const;
 
   const Sequence& sequence_;
@@ -71,27 +120,6 @@ class MapRows {
   bool is_widened_ = false;
 };
 
-/// `layout` with a field added at its end. The field's name is `name`, or `raymoval_<name>` if
-/// `layout` already has a field `name`.
-/// @param type,size as those of RecordLayout::add
-RecordLayout layout_with_field(const RecordLayout& layout, std::string name, char type, int size);
-
-/// Rows of such a layout: `rows`, each followed by the bytes of `value_of(row)`.
-/// @param layout of `layout_with_field`, whose size is that of a value
-template <class ValueOf>
-ScanRows rows_with_field(const ScanRows& rows, const RecordLayout& layout, ValueOf value_of) {
-  const std::size_t size = rows.rows.size();
-  ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
-  result.rows.las = rows.rows.las;
-  const std::size_t bytes = rows.rows.layout.row_bytes;
-  for (std::size_t i = 0; i < size; ++i) {
-    const auto value = value_of(i);
-    std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);
-    std::memcpy(result.rows.row(i) + bytes, &value, sizeof value);
-  }
-  return result;
-}
-
 /// `layout` with a float32 field added at its end: the method's confidence that a point moves, from
 /// 0 to 1. The field's name is `confidence`, or `raymoval_confidence` if `layout` already has a
 /// field `confidence`.
@@ -101,5 +129,41 @@ RecordLayout layout_with_confidence(const RecordLayout& layout);
 /// @param steps of each row's point, see `kConfidenceSteps`
 ScanRows rows_with_confidence(const ScanRows& rows, const RecordLayout& layout,
                               const std::string& steps);
+
+/// Keeps one row for each occupied cell of space, so that memory is bounded by the map. A row has
+/// the mean position and the mean intensity of the cell's points. All other fields are those of the
+/// point nearest to the centre of the cell, the first of several.
+class VoxelRows {
+ public:
+  /// @param cell_size in metres
+  /// @param origin of the cells
+  VoxelRows(const RecordLayout& layout, double cell_size, const Eigen::Vector3d& origin);
+
+  /// Adds row `point` of a scan.
+  void add(const ScanRows& scan, std::size_t point);
+  /// Passes on all cells, ordered by x, then y, then z, in pieces, and releases them.
+  void take(const std::function<void(const ScanRows& piece)>& give);
+
+ private:
+  struct Cell {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< From `origin`.
+    double intensity = 0.0;
+    std::uint64_t count = 0;
+    std::uint64_t row = 0;  ///< Number among those of `blocks_`.
+    float from_middle = std::numeric_limits<float>::infinity();  ///< Squared, in cells.
+  };
+  [[nodiscard]] std::byte* row_of(const Cell& cell) const;
+  void keep_row(Cell& cell, bool is_new, const std::byte* row);
+  void append(const Cell& cell, ScanRows& piece) const;
+
+  RecordLayout layout_;
+  PositionFields at_;
+  std::optional<PointField> intensity_;
+  bool keeps_rows_;  ///< Whether rows have fields other than position and intensity.
+  double cell_size_;
+  Eigen::Vector3d origin_;
+  VoxelMap<Cell> cells_;
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;  ///< Rows that never move.
+};
 
 }  // namespace raymoval

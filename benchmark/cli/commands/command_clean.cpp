@@ -22,13 +22,12 @@
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
-#include "datasets/reading/loaded_data.h"
 
 namespace raymoval {
 namespace {
 
 struct CleanFlags {
-  std::string path, output, dynamic, labelled, labels, scans, page, picture;
+  std::string path, output, dynamic, labels, scans, page, picture;
   std::string voxel, caution, edits;
   std::string method;
   std::vector<std::string> settings;
@@ -201,7 +200,6 @@ CleanPaths checked_paths(const CleanFlags& flags) {
   CleanPaths paths;
   paths.map = output_target(flags.output);
   paths.removed = output_target(flags.dynamic);
-  paths.labelled = output_target(flags.labelled);
   paths.labels = flags.labels;
   paths.scans = flags.scans;
   paths.page = output_target(flags.page);
@@ -329,15 +327,13 @@ ExitCode clean_in_process(const CleanFlags& flags, const CleanPaths& paths, Prog
   facts.report = check_data(sequence, flags.path, flags.force,
                             {flags.work.thread_count(), &progress, &interrupt_flag()});
   progress.set_context(writing.method + " on " + sequence.name);
-  // A scan that changes between the method's run and the writing of the map is an error.
-  const WatchedSequence data = watched(sequence);
-  CleanOutputs outputs(paths, writing, data.sequence, progress, interrupt_flag());
+  CleanOutputs outputs(paths, writing, sequence, progress, interrupt_flag());
   for (const std::string& note : outputs.notes()) print_error("raymoval: " + note);
-  const MethodAnswer answer =
-      edits ? edited_removals(flags, *edits, *data.sequence.scans, facts, progress)
-            : find_removals(flags, method, data.sequence, paths, progress);
+  const MethodAnswer answer = edits
+                                  ? edited_removals(flags, *edits, *sequence.scans, facts, progress)
+                                  : find_removals(flags, method, sequence, paths, progress);
   const MaskStore& masks = answer.masks;
-  write_outputs(*data.sequence.scans, answer, facts, outputs, progress);
+  write_outputs(*sequence.scans, answer, facts, outputs, progress);
   facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!is_control(method.entry->name)) {
     check_removed(masks.removed_count(), masks.point_count(), flags.path);
@@ -373,8 +369,6 @@ void add_clean_outputs(CommandOptions& options, CleanFlags& flags) {
               "in " +
                   join(written_extensions(), ", "));
   options.add("--dynamic", "FILE", flags.dynamic, "Also write the removed points as a map");
-  options.add("--labelled", "FILE", flags.labelled,
-              "Also write all points as a map with a field `label` (251 = removed, 9 = kept)");
   options.add_flag("--confidence", flags.confidence,
                    "Add a field `confidence` to maps: the estimated probability, from 0 to 1, that "
                    "a point moves");

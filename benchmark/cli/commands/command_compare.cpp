@@ -9,7 +9,6 @@
 #include "core/files/file_kind.h"
 #include "core/files/file_writer.h"
 #include "core/files/files.h"
-#include "core/terminal_colour.h"
 #include "core/text.h"
 
 namespace raymoval {
@@ -77,18 +76,6 @@ std::filesystem::path reference_file(const std::string& reference) {
   return file;
 }
 
-std::string coloured_verdicts(const std::string& text) {
-  return coloured_phrases(text,
-                          {{"Worse", TerminalColour::kBad},
-                           {"worse", TerminalColour::kBad},
-                           {"Better", TerminalColour::kGood},
-                           {"better, no regression", TerminalColour::kGood},
-                           {"no regression", TerminalColour::kGood},
-                           {"Not comparable", TerminalColour::kNotice},
-                           {"not comparable", TerminalColour::kNotice}},
-                          stdout);
-}
-
 ExitCode update(const CompareFlags& flags) {
   if (!flags.tolerances.empty() || !flags.across.empty() || !flags.time_band.empty() ||
       !flags.output.path.empty()) {
@@ -144,7 +131,7 @@ ExitCode compare(const CompareFlags& flags) {
   const std::string text = comparison_in(flags.format, comparison, subject);
   flags.output.write(text);
   const bool shows_text = !flags.output.path.empty() || flags.format == "text";
-  print(shows_text ? coloured_verdicts(comparison_text(comparison)) : text);
+  print(shows_text ? comparison_text(comparison) : text);
   return judged(comparison, options);
 }
 

@@ -24,17 +24,13 @@ struct RunFlags {
   bool explain = false, in_process = false, quiet = false;
 };
 
-std::string red(const std::string& text) {
-  return coloured(text, TerminalColour::kBad, stderr);
-}
-
 void report_problems(const RunSummary& summary, bool collect) {
   for (const std::string& failure : summary.failures) {
-    print_error(red("raymoval: cell failed:") + " " + failure);
+    print_error(in_red("raymoval: cell failed:", stderr) + " " + failure);
   }
   for (const std::string& line : summary.lost_scans) print_warning(line);
   for (const std::string& problem : summary.controls) {
-    print_error(red("raymoval: controls have wrong scores:") + " " + problem);
+    print_error(in_red("raymoval: controls have wrong scores:", stderr) + " " + problem);
   }
   if (collect && !summary.missing.empty()) {
     print_error("raymoval: cells are missing: " + join(summary.missing));
@@ -182,8 +178,7 @@ Command add_run_command(CommandParser& program) {
   options.set_footer(
       "The controls noop, remove-all and oracle are added and checked. Each method runs in its "
       "own\n"
-      "process. If it crashes or exceeds a limit, or if its data or program changes during the "
-      "run, the\n"
+      "process. If it crashes or exceeds a limit, the "
       "cell fails and the run continues. The --out folder is marked with .raymoval-run; only files "
       "of the\n"
       "run itself are ever deleted in it.\n"

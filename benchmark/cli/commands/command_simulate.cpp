@@ -96,7 +96,7 @@ Command add_simulate_command(CommandParser& program) {
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
       "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
-      "A cached scene that does not match its manifest.json is simulated again.\n"
+      "A cached scene that is not whole is simulated again.\n"
       "roll, pitch and yaw turn the sensor in the vehicle's frame, in degrees: town:roll=90 has "
       "it\n"
       "on its side, roll=180 upside down, pitch=90 looking down. The vehicle's path stays.\n"

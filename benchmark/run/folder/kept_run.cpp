@@ -14,7 +14,7 @@
 #include "core/files/file_kind.h"
 #include "core/text.h"
 #include "datasets/open_sequence.h"
-#include "datasets/reading/loaded_data.h"
+#include "datasets/reading/fingerprint.h"
 
 namespace raymoval {
 namespace {

@@ -11,6 +11,7 @@
 #include "benchmark/run/folder/cell_store.h"
 #include "benchmark/suite/suite_json.h"
 #include "benchmark/tables/tables.h"
+#include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
@@ -19,6 +20,14 @@
 
 namespace raymoval {
 namespace {
+
+FileLock::State taken(FileLock& lock, FileLock::Mode mode) {
+  try {
+    return lock.take(mode);
+  } catch (const DataError& error) {
+    throw DataError(std::string(error.what()) + " Nothing was changed; choose another --out.");
+  }
+}
 
 using std::filesystem::path;
 
@@ -89,6 +98,13 @@ void check_is_run_folder(const path& out) {
 }
 
 }  // namespace
+
+FolderLock::FolderLock(const std::filesystem::path& file, Mode mode)
+    : lock_(file), state_(taken(lock_, mode)) {
+  if (state_ != FileLock::State::kBusy) return;
+  throw UsageError(file.parent_path().string() + ": another run is writing there (" +
+                   lock_.holder() + "). Wait for its end, or choose another --out.");
+}
 
 void prepare_run_folder(const path& out) {
   if (has_folder(out)) check_is_run_folder(out);

@@ -7,8 +7,26 @@
 
 #include "benchmark/result/run_record.h"
 #include "benchmark/suite/suite.h"
+#include "core/files/file_lock.h"
 
 namespace raymoval {
+
+/// Prevents two runs from writing to one folder, during its lifetime.
+class FolderLock {
+ public:
+  using Mode = FileLock::Mode;
+
+  /// @throws UsageError naming process and host if another process holds it; DataError if the file
+  /// cannot be written or locked
+  FolderLock(const std::filesystem::path& file, Mode mode);
+
+  /// False on a file system without locks, where other runs are not prevented.
+  [[nodiscard]] bool is_held() const { return state_ == FileLock::State::kHeld; }
+
+ private:
+  FileLock lock_;
+  FileLock::State state_;
+};
 
 /// Name of the lock of a run folder, and of a cell's folder.
 inline constexpr const char* kLockFile = "run.lock";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -11,17 +10,8 @@
 namespace raymoval {
 namespace {
 
-constexpr double kTextWidth = 345.0;    ///< Of an article at 10 pt, in points.
-constexpr double kColumnWidth = 200.0;  ///< Of one with two columns; other classes have wider ones.
-constexpr std::size_t kMostLines = 46;  ///< Of a float, so that it is not higher than a page.
-constexpr std::size_t kLongText = 26;   ///< Characters; columns with more are broken into lines.
-
-/// Widths of text, in points, slightly overestimated.
-struct Measures {
-  double character, gap;
-};
-constexpr Measures kNormal{5.4, 12.0};
-constexpr Measures kSmall{4.5, 6.0};  ///< \footnotesize with \tabcolsep of 3 pt.
+constexpr std::size_t kNarrow = 40;    ///< Characters that fit a column of a two-column article.
+constexpr std::size_t kLongText = 26;  ///< Characters; columns with more are broken into lines.
 
 /// Reads a UTF-8 character that LaTeX supports without packages; '?' for others. `at` moves past
 /// it.
@@ -95,270 +85,102 @@ std::string breakable(const std::string& text) {
   return broken + latex_escaped(piece);
 }
 
-/// A column with its heading.
-struct LatexColumn {
-  std::size_t group = 0;
-  std::string name;
-  std::size_t place = 0;  ///< Among the cells of a row.
-  std::size_t characters = 0;
-  bool is_long = false;
-};
+/// After \raggedright, two backslashes end a line and not a row.
+constexpr const char* kEndOfRow = " \\tabularnewline\n";
 
-std::vector<LatexColumn> columns_of(const TextTable& table) {
-  std::vector<LatexColumn> columns;
-  for (std::size_t group = 0; group < table.groups.size(); ++group) {
-    for (const std::string& name : table.groups[group].columns) {
-      LatexColumn column{group, name, columns.size(), name.size(), false};
-      for (const TableRow& row : table.rows) {
-        column.characters = std::max(column.characters, row.cells[column.place].text.size());
-      }
-      column.is_long = column.characters > kLongText;
-      columns.push_back(column);
-    }
-  }
-  return columns;
+std::string cell_text(const TableCell& cell, bool is_long) {
+  const std::string text =
+      is_long ? "\\raggedright " + breakable(cell.text) : latex_escaped(cell.text);
+  if (cell.mark == Mark::kBest) return "\\textbf{" + text + "}";
+  if (cell.mark == Mark::kSecond) return "\\underline{" + text + "}";
+  return text;
 }
 
-/// Columns of a table that fit beside its row labels.
-using ColumnBlock = std::vector<LatexColumn>;
-
-/// The columns of each group.
-std::vector<ColumnBlock> groups_of(const ColumnBlock& columns) {
-  std::vector<ColumnBlock> groups;
-  for (const LatexColumn& column : columns) {
-    if (groups.empty() || groups.back().front().group != column.group) groups.emplace_back();
-    groups.back().push_back(column);
+/// The row of the groups' headings with its rules; empty if no group has one.
+std::string headings(const TextTable& table) {
+  std::string text, rules;
+  std::size_t at = 2;
+  bool any = false;
+  for (const TableGroup& group : table.groups) {
+    const std::size_t end = at + group.columns.size();
+    any = any || !group.heading.empty();
+    text += " & \\multicolumn{" + std::to_string(end - at) + "}{c}{" +
+            latex_escaped(group.heading) + "}";
+    rules += "\\cmidrule(lr){" + std::to_string(at) + "-" + std::to_string(end - 1) + "}";
+    at = end;
   }
-  return groups;
+  return any ? text + kEndOfRow + rules + "\n" : "";
 }
 
 class LatexTable {
  public:
-  explicit LatexTable(const TextTable& table) : table_(table), columns_(columns_of(table)) {
-    label_characters_ = table.corner.size();
+  explicit LatexTable(const TextTable& table) : table_(table) {
+    characters_ = character_count(table.corner);
     for (const TableRow& row : table.rows) {
-      label_characters_ = std::max(label_characters_, row.label.size());
+      characters_ = std::max(characters_, character_count(row.label));
     }
-    has_headings_ = std::any_of(table.groups.begin(), table.groups.end(),
-                                [](const TableGroup& group) { return !group.heading.empty(); });
-    is_wide_ = whole_width(kSmall) > kColumnWidth;
-    is_small_ = whole_width(kNormal) > (is_wide_ ? kTextWidth : kColumnWidth);
-    cut();
-    pack();
+    for (const TableGroup& group : table.groups) {
+      for (const std::string& name : group.columns) {
+        std::size_t characters = character_count(name);
+        for (const TableRow& row : table.rows) {
+          characters = std::max(characters, character_count(row.cells[names_.size()].text));
+        }
+        names_.push_back(name);
+        long_.push_back(characters > kLongText);
+        characters_ += characters + 2;
+      }
+    }
   }
 
   [[nodiscard]] std::string text() const {
-    std::string text;
-    for (std::size_t i = 0; i < floats_.size(); ++i) {
-      text += (i == 0 ? "" : "\n") + float_text(floats_[i], i);
-    }
-    return text;
-  }
-
- private:
-  [[nodiscard]] const Measures& measures() const { return is_small_ ? kSmall : kNormal; }
-  [[nodiscard]] double label_width(const Measures& by) const {
-    return by.character * static_cast<double>(label_characters_) + by.gap;
-  }
-  [[nodiscard]] double whole_width(const Measures& by) const {
-    return label_width(by) + width(columns_, by);
-  }
-  /// Of neighbouring columns, each group at least as wide as its heading. Long columns share what
-  /// the others leave, and need 80 pt.
-  [[nodiscard]] double width(const ColumnBlock& columns, const Measures& by) const {
-    double sum = 0.0;
-    for (const ColumnBlock& group : groups_of(columns)) {
-      double width = 0.0;
-      for (const LatexColumn& column : group) {
-        const auto characters = static_cast<double>(column.characters);
-        width += by.gap + (column.is_long ? 80.0 : by.character * characters);
-      }
-      const auto characters = static_cast<double>(heading_of(group).size());
-      sum += std::max(width, by.gap + by.character * characters);
-    }
-    return sum;
-  }
-
-  [[nodiscard]] const std::string& heading_of(const ColumnBlock& group) const {
-    return table_.groups[group.front().group].heading;
-  }
-
-  [[nodiscard]] double room_for_columns() const {
-    return (is_wide_ ? kTextWidth : kColumnWidth) - label_width(measures());
-  }
-
-  /// Puts groups that fit into a block as a whole, larger groups column by column.
-  void cut() {
-    const double room = room_for_columns();
-    blocks_.emplace_back();
-    for (const ColumnBlock& unit : groups_of(columns_)) {
-      if (width(unit, measures()) <= room) {
-        append(unit, room);
-      } else {
-        for (const LatexColumn& column : unit) append({column}, room);
-      }
-    }
-  }
-  void append(const ColumnBlock& unit, double room) {
-    ColumnBlock& last = blocks_.back();
-    if (!last.empty() && width(last, measures()) + width(unit, measures()) > room) {
-      blocks_.push_back(unit);
-    } else {
-      last.insert(last.end(), unit.begin(), unit.end());
-    }
-  }
-
-  /// Fills floats with as many tabulars as a page holds: all rows for each column block, if
-  /// possible in whole row blocks.
-  void pack() {
-    for (const ColumnBlock& block : blocks_) {
-      const std::size_t around = 5 + (has_headings_ ? 1 : 0);
-      for (const RowRange& rows : row_ranges(kMostLines - around)) {
-        const std::size_t lines = around + lines_of(rows);
-        if (floats_.empty() || floats_.back().lines + lines > kMostLines) floats_.push_back({});
-        floats_.back().tabulars.push_back({&block, rows});
-        floats_.back().lines += lines;
-      }
-    }
-  }
-
-  /// Each heading of a block and the space above it take two lines.
-  [[nodiscard]] std::size_t lines_of(const RowRange& rows) const {
-    std::size_t lines = rows.end - rows.first;
-    for (std::size_t i = rows.first; i < rows.end; ++i) lines += starts_block(i, rows) ? 2 : 0;
-    return lines;
-  }
-  [[nodiscard]] bool starts_block(std::size_t row, const RowRange& rows) const {
-    const std::string& block = table_.rows[row].block;
-    return !block.empty() && (row == rows.first || table_.rows[row - 1].block != block);
-  }
-
-  /// All rows in ranges of at most `most` lines, which end with a block where that is possible.
-  [[nodiscard]] std::vector<RowRange> row_ranges(std::size_t most) const {
-    std::vector<RowRange> ranges;
-    for (RowRange block : blocks_of(table_)) {
-      if (!ranges.empty()) {
-        const RowRange joined{ranges.back().first, block.end};
-        if (lines_of(joined) <= most) {
-          ranges.back() = joined;
-          continue;
-        }
-      }
-      for (; lines_of(block) > most; block.first += most - 2) {
-        ranges.push_back({block.first, block.first + most - 2});
-      }
-      ranges.push_back(block);
-    }
-    if (ranges.empty()) ranges.push_back({0, 0});
-    return ranges;
-  }
-
-  /// A part of the columns with a part of the rows.
-  struct Tabular {
-    const ColumnBlock* block = nullptr;
-    RowRange rows;
-  };
-  struct Float {
-    std::vector<Tabular> tabulars;
-    std::size_t lines = 0;
-  };
-
-  [[nodiscard]] std::string float_text(const Float& part, std::size_t number) const {
-    const std::string name = is_wide_ ? "table*" : "table";
-    std::string text = "% needs \\usepackage{booktabs}\n\\begin{" + name + "}[htbp]\n\\centering\n";
-    if (is_small_) text += "\\footnotesize\n\\setlength{\\tabcolsep}{3pt}\n";
-    text += "\\caption{" + latex_escaped(table_.title) + (number > 0 ? " (continued)" : "") +
-            (table_.data.empty() ? "" : ". " + latex_escaped(table_.data)) + "}\n" +
-            (number > 0 ? "" : "\\label{tab:" + label_of(table_.title) + "}\n") + "\\smallskip\n";
-    for (std::size_t i = 0; i < part.tabulars.size(); ++i) {
-      text += (i == 0 ? "" : "\\par\\medskip\n") + tabular_text(part.tabulars[i]);
-    }
-    const bool last = number + 1 == floats_.size();
-    for (const std::string& note : last ? table_.notes : std::vector<std::string>{}) {
+    const std::string name = characters_ > kNarrow ? "table*" : "table";
+    std::string text = "% needs \\usepackage{booktabs,graphicx}\n\\begin{" + name +
+                       "}[htbp]\n\\centering\n\\caption{" + latex_escaped(table_.title) +
+                       (table_.data.empty() ? "" : ". " + latex_escaped(table_.data)) +
+                       "}\n\\label{tab:" + label_of(table_.title) + "}\n\\smallskip\n" + kFit +
+                       tabular() + "}}\n";
+    for (const std::string& note : table_.notes) {
       text += "\n\\smallskip\n" + latex_escaped(note) + "\n";
     }
     return text + "\\end{" + name + "}\n";
   }
 
-  [[nodiscard]] std::string tabular_text(const Tabular& part) const {
-    const ColumnBlock& block = *part.block;
-    // After \raggedright, `\\` ends a line and not a row.
-    const bool has_long = std::any_of(block.begin(), block.end(),
-                                      [](const LatexColumn& column) { return column.is_long; });
-    const std::string end_of_row = has_long ? " \\tabularnewline\n" : " \\\\\n";
-    std::string text = "\\begin{tabular}{l" + formats(block) + "}\n\\toprule\n";
-    if (has_headings_) text += headings(block, end_of_row);
-    text += latex_escaped(table_.corner);
-    for (const LatexColumn& column : block) text += " & " + latex_escaped(column.name);
-    text += end_of_row + "\\midrule\n";
-    for (std::size_t i = part.rows.first; i < part.rows.end; ++i) {
+ private:
+  /// Makes what is wider than the text, or higher than a page, smaller.
+  static constexpr const char* kFit =
+      "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n"
+      "\\resizebox*{!}{\\ifdim\\totalheight>0.8\\textheight0.8\\textheight\\else\\totalheight\\fi}{"
+      "%\n";
+
+  [[nodiscard]] std::string tabular() const {
+    std::string text = "\\begin{tabular}{l";
+    for (const bool is_long : long_) text += is_long ? "p{60mm}" : "r";
+    text += "}\n\\toprule\n" + headings(table_) + latex_escaped(table_.corner);
+    for (const std::string& name : names_) text += " & " + latex_escaped(name);
+    text += std::string(kEndOfRow) + "\\midrule\n";
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
       const TableRow& row = table_.rows[i];
-      if (starts_block(i, part.rows)) {
-        text += std::string(i == part.rows.first ? "" : "\\midrule\n") + "\\multicolumn{" +
-                std::to_string(block.size() + 1) + "}{l}{\\textit{" + latex_escaped(row.block) +
-                "}}" + end_of_row;
-      } else if (row.summary && (i == 0 || !table_.rows[i - 1].summary)) {
-        text += i == part.rows.first ? "" : "\\midrule\n";
+      const TableRow* last = i == 0 ? nullptr : &table_.rows[i - 1];
+      const bool starts = !row.block.empty() && (last == nullptr || last->block != row.block);
+      const bool summary = row.summary && last != nullptr && !last->summary;
+      if (last != nullptr && (starts || summary)) text += "\\midrule\n";
+      if (starts) {
+        text += "\\multicolumn{" + std::to_string(names_.size() + 1) + "}{l}{\\textit{" +
+                latex_escaped(row.block) + "}}" + kEndOfRow;
       }
-      text += row_text(row, block) + end_of_row;
+      text += latex_escaped(row.label);
+      for (std::size_t k = 0; k < row.cells.size(); ++k) {
+        text += " & " + cell_text(row.cells[k], long_[k]);
+      }
+      text += kEndOfRow;
     }
-    return text + "\\bottomrule\n\\end{tabular}\n";
-  }
-
-  [[nodiscard]] static std::string row_text(const TableRow& row, const ColumnBlock& block) {
-    std::string text = latex_escaped(row.label);
-    for (const LatexColumn& column : block) {
-      text += " & " + cell_text(row.cells[column.place], column.is_long);
-    }
-    return text;
-  }
-
-  [[nodiscard]] std::string formats(const ColumnBlock& block) const {
-    double left = room_for_columns();
-    std::size_t long_columns = 0;
-    for (const LatexColumn& column : block) {
-      long_columns += column.is_long ? 1 : 0;
-      left -= measures().gap;
-      if (!column.is_long) left -= measures().character * static_cast<double>(column.characters);
-    }
-    std::string text;
-    for (const LatexColumn& column : block) {
-      const double share = std::max(60.0, left / static_cast<double>(long_columns));
-      text += column.is_long ? "p{" + fixed_text(std::floor(share), 0) + "pt}" : "r";
-    }
-    return text;
-  }
-
-  [[nodiscard]] std::string headings(const ColumnBlock& block,
-                                     const std::string& end_of_row) const {
-    std::string text, rules;
-    std::size_t at = 2;
-    for (const ColumnBlock& group : groups_of(block)) {
-      const std::size_t end = at + group.size();
-      text += " & \\multicolumn{" + std::to_string(group.size()) + "}{c}{" +
-              latex_escaped(heading_of(group)) + "}";
-      rules += "\\cmidrule(lr){" + std::to_string(at) + "-" + std::to_string(end - 1) + "}";
-      at = end;
-    }
-    return text + end_of_row + rules + "\n";
-  }
-
-  [[nodiscard]] static std::string cell_text(const TableCell& cell, bool is_long) {
-    const std::string text =
-        is_long ? "\\raggedright " + breakable(cell.text) : latex_escaped(cell.text);
-    if (cell.mark == Mark::kBest) return "\\textbf{" + text + "}";
-    if (cell.mark == Mark::kSecond) return "\\underline{" + text + "}";
-    return text;
+    return text + "\\bottomrule\n\\end{tabular}%\n";
   }
 
   const TextTable& table_;
-  std::vector<LatexColumn> columns_;
-  std::size_t label_characters_ = 0;
-  bool has_headings_ = false;
-  bool is_small_ = false;
-  bool is_wide_ = false;  ///< Spans both columns of a two-column text.
-  std::vector<ColumnBlock> blocks_;
-  std::vector<Float> floats_;
+  std::vector<std::string> names_;  ///< Of the columns.
+  std::vector<bool> long_;          ///< Whether their texts are broken into lines.
+  std::size_t characters_ = 0;      ///< Of the widest row.
 };
 
 }  // namespace

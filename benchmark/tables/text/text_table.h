@@ -88,14 +88,12 @@ std::string to_plain(const TextTable& table);
 /// table of its own, all of the same widths.
 std::string to_markdown(const TextTable& table);
 
-/// LaTeX that needs only the package booktabs: everything escaped, best bold, second underlined,
-/// each block below a heading. A table that is too wide for a column of a two-column article (200
-/// pt) is set smaller. If it is still too wide, it becomes a `table*`, which spans both columns. If
-/// it does not fit the text of an article (345 pt), it is divided into several tables, one below
-/// the other. A table higher than a page is divided into several floats. Long texts are broken into
-/// lines. The caption has the title and the data, and the label is made of the title:
-/// "tab:accuracy-by-protocol-erasor". Characters beyond Latin-1, which LaTeX does not support
-/// without packages, become question marks.
+/// LaTeX that needs the packages booktabs and graphicx: everything escaped, best bold, second
+/// underlined, each block below a heading. A table that is too wide for a column of a two-column
+/// article becomes a `table*`, which spans both columns; what is wider than the text, or higher
+/// than a page, is made smaller. Long texts are broken into lines. The caption has the title and
+/// the data, and the label is made of the title: "tab:accuracy-by-protocol-erasor". Characters
+/// beyond Latin-1, which LaTeX does not support without packages, become question marks.
 std::string to_latex(const TextTable& table);
 
 }  // namespace raymoval

@@ -91,11 +91,10 @@ class HeaderLines {
 /// @throws DataError with file and line: missing or contradictory entries, unknown types, no x y z
 CloudHeader parse_pcd_header(std::string_view bytes, const std::filesystem::path& path);
 
-/// The header of a PLY file. Elements before the vertices of a binary file are skipped, so that
-/// `body_offset` is the first vertex.
-/// @param bytes the file
-/// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements before the
-///   vertices that the file has no bytes for
+/// The header of a PLY file.
+/// @param bytes the file, or at least its whole header
+/// @throws DataError as `parse_pcd_header`; for a vertex with a list; for elements with items
+///   before the vertices
 CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path);
 
 /// The positions and intensities of the points of a PCD or PLY file. In ASCII files, other fields

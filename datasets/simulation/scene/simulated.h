@@ -92,8 +92,8 @@ std::string simulated_scene_text(const std::string& name);
 std::string simulated_sensor_text(const std::string& name);
 
 /// Writes the SemanticKITTI layout: velodyne/, labels/, poses.txt (camera convention), calib.txt,
-/// times.txt, sequence.json, movers.json (when each mover moves), and manifest.json (name, size and
-/// hash of each file). `folder` appears whole or not at all, also after a power failure.
+/// times.txt, sequence.json, movers.json (when each mover moves), and manifest.json (the identity
+/// of the scene). `folder` appears whole or not at all, also after a power failure.
 /// @param cancel checked before each scan
 /// @throws DataError if `folder` exists and is not an empty folder, or cannot be written; Cancelled
 void write_simulated(const SimulationOptions& options, const std::filesystem::path& folder,
@@ -108,19 +108,16 @@ std::filesystem::path default_cache_root();
 ///
 /// Machines and containers may share the cache. If another process generates the scene, the call
 /// waits for it (a lock in the cache; on a file system without locks, both generate it and one
-/// result is kept). A folder of the cache is valid only if it fits its manifest.json: every file
-/// has its size and, if `check_content`, its hash, and there is no extra scan. Otherwise it is
-/// generated again, with a message.
+/// result is kept). A folder of the cache is valid if it has its manifest.json, all tables and the
+/// scene's number of scans and labels. Otherwise it is generated again, with a message.
 /// @throws as write_simulated; DataError if the cache cannot be written; UnreadableError if it
 ///   cannot be read, because the folder may be valid then
 std::filesystem::path cached_simulation(const SimulationOptions& options,
                                         const std::filesystem::path& cache_root, int threads,
                                         Progress* progress,
-                                        const std::atomic<bool>* cancel = nullptr,
-                                        bool check_content = true);
+                                        const std::atomic<bool>* cancel = nullptr);
 
-/// Whether `cached_simulation` would not generate the sequence, by the names and sizes of its
-/// files. @throws as `cached_simulation`
+/// Whether `cached_simulation` would not generate the sequence. @throws as `cached_simulation`
 bool is_cached(const SimulationOptions& options, const std::filesystem::path& cache_root);
 
 }  // namespace raymoval

@@ -86,19 +86,6 @@ TEST_CASE("What the system cannot look at is not taken for absent") {
   CHECK_THROWS_WITH(identity_of(file), Contains("map.pcd: cannot be accessed ("));
 }
 
-TEST_CASE("Outputs do not stand in each other's place") {
-  const test::TemporaryFolder folder;
-  CleanPaths paths = map_to(folder.path() / "map.pcd");
-  paths.labelled = folder.path() / "." / "map.pcd";
-  CHECK_THROWS_WITH(check_paths(paths), Contains("-o and --labelled name the same file"));
-  paths.labelled.clear();
-  paths.scans = folder.path();
-  CHECK_THROWS_WITH(check_paths(paths), Contains("name nested folders"));
-  paths.scans = folder.path() / "scans";
-  paths.page = folder.path() / "page.png";
-  CHECK_THROWS_WITH(check_paths(paths), Contains("ends in .html"));
-}
-
 TEST_CASE("Only what an earlier run wrote into a folder is replaced") {
   const test::TemporaryFolder folder;
   CleanPaths paths;

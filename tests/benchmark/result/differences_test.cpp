@@ -48,15 +48,3 @@ TEST_CASE("What differs between two cells is told in words", "[result]") {
   older.columns.reset();
   CHECK(identity_difference(older, same) == "columns is new");
 }
-
-TEST_CASE("A cell whose data could not be read is compared too", "[result]") {
-  const test::TemporaryFolder folder;
-  ResultsRecord results;
-  Cell cell{"town", "comb", ""};
-  cell.fail(CellStatus::kBadData, "000001.bin: torn");
-  results.cells = {cell};
-  write_results(folder.path() / "results.json", results);
-  const ResultSet set = read_result_set(folder.path() / "results.json");
-  REQUIRE(set.cells.size() == 1);
-  CHECK(set.cells[0].status == "bad_data");
-}

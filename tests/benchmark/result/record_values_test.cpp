@@ -93,28 +93,6 @@ TEST_CASE("A cell that fails loses its scores, and says why", "[result]") {
   CHECK(cell.title() == "town / comb");
 }
 
-TEST_CASE("Rates that are no number are null with their reason, and so are half an interval's ends",
-          "[result]") {
-  Cell cell = read_as<Cell>(plain_cell(), "cell.json");
-  Score score{{"erasor", "erasor", "1", {}}};
-  score.rates = {{"PR", std::nan(""), "not a number"}, {"RR", {}, "nothing moves"}, {"F1", 0.5}};
-  score.intervals.emplace().rates = {
-      {"PR", 1.0, {}, "no high end"}, {"RR", {}, 2.0, "no low end"}, {"F1", 1.0, 2.0}};
-  cell.scores = {score};
-  const Score back = read_as<Cell>(to_json(cell), "cell.json").scores.at(0);
-  CHECK_FALSE(back.rates[0].value);
-  CHECK(back.rates[0].undefined_reason == "not a number");
-  CHECK(back.rates[1].undefined_reason == "nothing moves");
-  CHECK(back.rates[2].value == 0.5);
-  CHECK(back.rates[2].undefined_reason.empty());
-  REQUIRE(back.intervals);
-  CHECK_FALSE(back.intervals->rates[0].low);
-  CHECK(back.intervals->rates[0].undefined_reason == "no high end");
-  CHECK(back.intervals->rates[1].undefined_reason == "no low end");
-  CHECK(back.intervals->rates[2].low == 1.0);
-  CHECK(back.intervals->rates[2].high == 2.0);
-}
-
 TEST_CASE("A sealed file is whole and unchanged, or it is refused with what to do", "[result]") {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "a.json";
@@ -138,20 +116,4 @@ TEST_CASE("A sealed file is whole and unchanged, or it is refused with what to d
   CHECK_THROWS_WITH(read_sealed(file), Contains("a.json: the content does not fit its checksum") &&
                                            Contains("Run `raymoval run` again"));
   CHECK_THROWS_AS(read_sealed(folder.path() / "none.json"), DataError);
-}
-
-TEST_CASE("The text of results is that of the file without its checksum", "[result]") {
-  const test::TemporaryFolder folder;
-  const auto file = folder.path() / "results.json";
-  ResultsRecord results{RunRecord{"quick"}};
-  results.cells = {read_as<Cell>(plain_cell(), "cell.json")};
-  write_results(file, results);
-  CHECK(read_results_text(file) == json_text(to_json(results)));
-  const ResultsRecord back = read_results(file);
-  REQUIRE(back.find({"town", "comb"}) != nullptr);
-  CHECK(back.find({"town", "comb"})->key == "key");
-  CHECK(back.find({"town", "other"}) == nullptr);
-  CHECK(back.find({"other", "comb"}) == nullptr);
-  write_sealed(file, {{"schema_version", 7}});
-  CHECK_THROWS_AS(read_results_text(file), SchemaVersionError);
 }

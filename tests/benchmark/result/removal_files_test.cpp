@@ -48,19 +48,6 @@ TEST_CASE("Removals are written per point of the file and read back per point of
   CHECK(back.get(1) == Mask{1});
 }
 
-TEST_CASE("Ids 251 to 259 mean removed whatever the instance, and their neighbours do not") {
-  const test::TwoScans scans;
-  const test::TemporaryFolder folder;
-  const std::uint32_t instance = 7U << 16;
-  const std::vector<std::uint32_t> words = {250, 0, 259 | instance, 0, 260 | instance};
-  write_atomically(folder.path() / "000007.label",
-                   {reinterpret_cast<const char*>(words.data()), words.size() * 4});
-  write_atomically(folder.path() / "000008.label", std::string("\xfb\0\0\0", 4));
-  const MaskStore masks = read_removals(folder.path(), scans, [] {});
-  CHECK(masks.get(0) == Mask{0, 1, 0});
-  CHECK(masks.get(1) == Mask{1});
-}
-
 TEST_CASE("The labels of predictions are told, so that masks of 0 and 1 can be noticed") {
   const test::TwoScans scans;
   const test::TemporaryFolder folder;
@@ -168,16 +155,6 @@ TEST_CASE("Whoever gives the folder above that of the label files is told which 
                           folder.path() / "some/labels/000008.label");
   CHECK_THROWS_WITH(read_removals(folder.path() / "some", scans, [] {}),
                     Contains("000008.label: missing"));
-}
-
-TEST_CASE("After each scan the caller may stop") {
-  const test::TwoScans scans;
-  const test::TemporaryFolder folder;
-  int times = 0;
-  write_removals(folder.path(), scans, two_masks(), [&] { ++times; });
-  CHECK(times == 2);
-  (void)read_removals(folder.path(), scans, [&] { ++times; });
-  CHECK(times == 4);
 }
 
 TEST_CASE("A point that is neither kept nor removed is written as such, and read as kept") {

@@ -78,12 +78,3 @@ TEST_CASE("Cells without a result are listed with reason and last words") {
   CHECK(table.rows[0].cells[2].text == "scan 7 ...");
   CHECK(table.rows[1].cells[0].text == "not run");
 }
-
-TEST_CASE("Parameters of a foreign run with commas in their names are told apart") {
-  RunResults results = swept_run();
-  results.sweeps = {{"x:size=1", "x", {{"a", "1"}, {"b", "2"}}},
-                    {"x:size=2", "x", {{"a, b", "1"}}}};
-  CHECK(sweeps_of(results).size() == 2);
-  results.sweeps = {{"x:size=1", "x", {{"", "1"}}}, {"x:size=2", "x", {}}};
-  CHECK(sweeps_of(results).size() == 2);
-}

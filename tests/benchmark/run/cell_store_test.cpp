@@ -140,20 +140,6 @@ TEST_CASE("A place where a cell could not be kept is refused before it is needed
   CHECK(store.find(kName, identity(), &scans).state == StoredCell::State::kFresh);
 }
 
-TEST_CASE("A stored result is a whole cell that did not fail") {
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  CHECK_FALSE(store.has_result(kName));
-  Cell cell = cell_of(identity(), masks_of_two_scans());
-  store.keep(cell);
-  CHECK(store.has_result(kName));
-  write_atomically(store.folder(kName) / "cell.json", "{}");
-  CHECK_FALSE(store.has_result(kName));
-  cell.fail(CellStatus::kFailed, "no idea");
-  store.keep(cell);
-  CHECK_FALSE(store.has_result(kName));
-}
-
 TEST_CASE("What a killed run left of a cell goes before it is run again, and nothing else does") {
   const test::TemporaryFolder folder;
   const CellStore store(folder.path());
@@ -168,13 +154,6 @@ TEST_CASE("What a killed run left of a cell goes before it is run again, and not
   for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
   for (const fs::path& file : foreign) CHECK(fs::exists(file));
   CHECK(fs::exists(place / "keep.txt"));
-}
-
-TEST_CASE("A folder that cannot be made is told, and so is --out") {
-  const test::TemporaryFolder folder;
-  write_atomically(folder.path() / "file", "x");
-  CHECK_THROWS_WITH(make_folder(folder.path() / "file" / "cells"),
-                    Contains("file/cells: cannot be made") && Contains("--out"));
 }
 
 TEST_CASE("A stored cell is fresh, stale, failed or missing") {
@@ -233,18 +212,4 @@ TEST_CASE("A cell whose removals are asked for has to have the very masks it was
   cell.masks.reset();
   store.keep(cell, written_removals(store, masks));
   CHECK(store.find(kName, identity(), &scans).state == State::kStale);
-}
-
-TEST_CASE("A damaged cell is run again, and so is a repeat of another cell") {
-  using State = StoredCell::State;
-  const test::TemporaryFolder folder;
-  const CellStore store(folder.path());
-  store.keep(cell_of(identity(), masks_of_two_scans()));
-  const fs::path file = store.folder(kName) / "cell.json";
-  std::string text = read_text(file);
-  text[text.find("comb")] = 'k';
-  write_atomically(file, text);
-  const StoredCell damaged = store.find(kName, identity(), nullptr);
-  CHECK(damaged.state == State::kStale);
-  CHECK(damaged.why == "cell.json is damaged or was changed by hand");
 }

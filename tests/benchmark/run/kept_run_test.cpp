@@ -177,65 +177,6 @@ TEST_CASE("Without run.json only --data says where a sequence is") {
   CHECK_THROWS_WITH(two.scans_of("nowhere"), Contains("'nowhere'"));
 }
 
-TEST_CASE("A run on data that could not be read is compared by its number of scans only") {
-  const TwoSequences two;
-  two.change_results([](ResultsRecord& results) {
-    for (Cell& cell : results.cells) cell.data.reset();
-  });
-  (void)two.folder.write("data/drive/velodyne/000000.bin", test::floats({6, 0, 0, 0, 5, 9, 0, 0}));
-  CHECK(two.scans_of("drive") == 1);
-  two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.scans = 3; });
-  CHECK_THROWS_WITH(two.scans_of("drive"), Contains("it holds 1 scan, and the run had 3"));
-  two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.scans = 0; });
-  CHECK(two.scans_of("drive") == 1);
-}
-
-TEST_CASE("A folder of --data is never taken for a scene of its name") {
-  const TwoSequences two;
-  fs::rename(two.root / "drive", two.folder.path() / "town");
-  fs::create_directory_symlink("town", two.folder.path() / "town:scans=60");
-  const fs::path before = fs::current_path();
-  fs::current_path(two.folder.path());
-  for (const char* name : {"town", "town:scans=60"}) {
-    std::size_t scans = 0;
-    try {
-      scans = two.scans_of("drive", name);
-    } catch (const Error& error) {
-      UNSCOPED_INFO(error.what());
-    }
-    CHECK(scans == 1);
-  }
-  fs::current_path(before);
-}
-
-TEST_CASE("A colon in --data may be part of a folder's name") {
-  const TwoSequences two;
-  fs::rename(two.root, two.folder.path() / "da:ta");
-  CHECK(two.scans_of("drive", two.folder.path() / "da:ta") == 1);
-}
-
-TEST_CASE("Below --data only folders that are there are tried, and none above it") {
-  const TwoSequences two;
-  const fs::path inner = two.folder.path() / "inner";
-  fs::create_directory(inner);
-  const auto error_of = [&](const std::string& sequence, const fs::path& data) {
-    return test::message_of<DataError>([&] { (void)two.scans_of(sequence, data); });
-  };
-  const std::string nothing = "cannot be opened again: " + inner.string() + ": no known layout";
-  CHECK_THAT(error_of("drive", inner), Contains(nothing));
-  CHECK_THAT(error_of("five", inner), Contains(nothing));  // Whose place is ROOT:05.
-  // A run.json that leads upwards from --data, whose folder is a sequence here.
-  for (const char* part : {"velodyne", "labels", "poses.txt", "calib.txt"}) {
-    fs::rename(two.root / "drive" / part, two.folder.path() / part);
-  }
-  RunRecord run = read_run_record(two.run / "run.json");
-  for (const char* end : {"/..", "/"}) {
-    run.sequences.at(0).place->path = two.root.string() + end;
-    write_run_record(two.run / "run.json", run);
-    CHECK_THAT(error_of("drive", inner), Contains(nothing));
-  }
-}
-
 TEST_CASE("A scene that a run.json names is not made unless somebody asks for that") {
   const TwoSequences two;
   RunRecord run = read_run_record(two.run / "run.json");
@@ -243,23 +184,6 @@ TEST_CASE("A scene that a run.json names is not made unless somebody asks for th
   write_run_record(two.run / "run.json", run);
   CHECK_THROWS_WITH(KeptRun(two.run.string(), "").open("drive", {}),
                     Contains("is a scene that is not in the cache"));
-}
-
-TEST_CASE("Of a sequence whose frames or scans nobody knows all are opened") {
-  const TwoSequences two;
-  fs::remove(two.run / "run.json");
-  two.change_results([](ResultsRecord& results) { results.run.sequences[0].data.frames.clear(); });
-  CHECK(two.scans_of("drive", two.root) == 1);
-  // Of a name that the run does not have it is not known how many there were.
-  fs::copy(two.root / "drive", two.root / "other", fs::copy_options::recursive);
-  for (const char* part : {"velodyne/00000%.bin", "labels/00000%.label"}) {
-    std::string from = part, to = part;
-    from.replace(from.find('%'), 1, "0");
-    to.replace(to.find('%'), 1, "1");
-    fs::copy(two.root / "other" / from, two.root / "other" / to);
-  }
-  (void)two.folder.write("data/other/poses.txt", test::kIdentityRow + test::kIdentityRow);
-  CHECK(two.scans_of("other", two.root) == 2);
 }
 
 TEST_CASE("A stop and a disk that does not answer are no reason to look elsewhere") {

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/result/sealed_json.h"
-#include "benchmark/run/folder/folder_lock.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
@@ -172,28 +171,6 @@ TEST_CASE(
   CHECK_FALSE(is_taken({{"run.lock", ""}, {"zebra.txt", "mine"}}));
 }
 
-TEST_CASE("A marked folder stays one, and only half-written results of a run go") {
-  const test::TemporaryFolder folder;
-  const fs::path out = folder.path() / "deep/run";
-  prepare_run_folder(out);
-  const std::string marker = read_text(out / kRunMarker);
-  write(out / kRunMarker, "of an earlier version");
-  write(out / "notes.txt", "mine");
-  prepare_run_folder(out);  // It is marked, with any other content.
-  CHECK(read_text(out / kRunMarker) == "of an earlier version");
-  const std::vector<fs::path> left = {new_part_name(out / "table.tex"),
-                                      new_part_name(out / kRunMarker)};
-  const std::vector<fs::path> kept = {out / "table.tex", new_part_name(out / "notes.txt")};
-  for (const fs::path& file : left) write(file, "half");
-  for (const fs::path& file : kept) write(file, "whole");
-  sweep_run_folder(out);
-  for (const fs::path& file : left) CHECK_FALSE(fs::exists(file));
-  for (const fs::path& file : kept) CHECK(fs::exists(file));
-  CHECK_FALSE(marker.empty());
-  write(folder.path() / "file", "x");
-  CHECK_THROWS_AS(prepare_run_folder(folder.path() / "file"), DataError);
-}
-
 TEST_CASE("The lock of a run folder is refused to a second one, by name") {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / kLockFile;
@@ -203,30 +180,4 @@ TEST_CASE("The lock of a run folder is refused to a second one, by name") {
                         Contains("choose another --out"));
   CHECK_THROWS_WITH(FolderLock(folder.path() / "none" / kLockFile, FolderLock::Mode::kExclusive),
                     Contains("Nothing was changed; choose another --out."));
-}
-
-TEST_CASE("A folder without a marker is known by a run.json that is whole, of whatever version") {
-  const test::TemporaryFolder folder;
-  const fs::path file = folder.path() / "run.json";
-  write(folder.path() / "notes.txt", "mine");
-  write(file, "{}");
-  CHECK_THROWS_WITH(prepare_run_folder(folder.path()),
-                    Contains("its run.json is not as raymoval wrote it"));
-  write_sealed(file, {{"schema_version", 7}});
-  prepare_run_folder(folder.path());
-  CHECK(has_file(folder.path() / kRunMarker));
-}
-
-TEST_CASE("The record of a run says whether controls are checked, and what it was made with") {
-  Suite suite;
-  for (const bool controls : {true, false}) {
-    suite.controls = controls;
-    const RunRecord run = run_record(suite, {}, 3);
-    CHECK(run.controls == controls);
-    REQUIRE(run.build);
-    CHECK_FALSE(run.build->compiler.empty());
-    REQUIRE(run.machine);
-    CHECK(run.machine->threads == 3);
-    CHECK(run.cells.empty());
-  }
 }

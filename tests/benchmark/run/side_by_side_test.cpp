@@ -62,18 +62,6 @@ TEST_CASE("All is done once, and two at once") {
   CHECK(done == std::multiset<std::size_t>{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("One job works in the order of the list, on the thread that asks") {
-  std::vector<std::size_t> order;
-  std::set<std::thread::id> threads;
-  run_side_by_side(1, 3, [&](std::size_t i) {
-    order.push_back(i);
-    threads.insert(std::this_thread::get_id());
-  });
-  CHECK(order == std::vector<std::size_t>{0, 1, 2});
-  CHECK(threads == std::set{std::this_thread::get_id()});
-  run_side_by_side(4, 0, [&](std::size_t) { FAIL("there is nothing to do"); });
-}
-
 TEST_CASE("After an error nothing more is begun, and the error of the lowest is thrown") {
   std::atomic<int> begun = 0;
   const auto fail_late = [&](std::size_t i) {
@@ -143,14 +131,6 @@ TEST_CASE("A sequence that cannot be read is failed cells, and the other one is 
   CHECK(summary.cells == 8);
   REQUIRE(summary.failures.size() == 4);
   CHECK_THAT(summary.failures[0], Contains("000000.bin"));
-}
-
-TEST_CASE("Jobs leave no room for more threads") {
-  Suite suite = small_suite("0:0");
-  suite.threads = 2;
-  const test::TemporaryFolder folder;
-  CHECK_THROWS_WITH(run_suite(suite, {.out = folder.path() / "run", .jobs = 2}),
-                    Contains("one thread, but 2 threads are asked for"));
 }
 
 TEST_CASE("A cancelled run with jobs says so and keeps what was finished") {

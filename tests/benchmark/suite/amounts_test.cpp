@@ -39,16 +39,3 @@ TEST_CASE("A time is read in seconds, or with a unit") {
     CHECK_THROWS_WITH(seconds(wrong), Contains("--time-limit") && Contains("5min"));
   }
 }
-
-TEST_CASE("A range says what was meant if it is no range") {
-  const auto range = [](const std::string& text) { return parse_range("--range", text); };
-  CHECK(range("2.7:50").min == 2.7);
-  CHECK(range("2.7:50").max == 50.0);
-  CHECK(range(":50").min == RangeLimits{}.min);
-  CHECK(range("3:").max == RangeLimits{}.max);
-  CHECK_THROWS_WITH(range("50:2"), Contains("MIN comes first: write 2:50."));
-  CHECK_THROWS_WITH(range("50"), Contains("Write :50 for at most 50 m, or 50: for at least that."));
-  for (const char* wrong : {"", "2-50", "2:x", "-1:5", "5:5", "1:2:3", "nan:5", "2m:50m"}) {
-    CHECK_THROWS_WITH(range(wrong), Contains("expected MIN:MAX in metres"));
-  }
-}

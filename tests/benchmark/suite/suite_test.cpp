@@ -273,22 +273,3 @@ TEST_CASE("{data} stands for the data's root") {
   CHECK_THROWS_WITH(suite_on("{data}:05", ""), Contains("--data ROOT"));
   CHECK_THROWS_WITH(suite_on("street", "/kitti"), Contains("--data is given"));
 }
-
-TEST_CASE("Settings without effect are named, swept ones if they have none at any point") {
-  const std::string line = "toy:a.gap has no effect here: it acts when size > 1.";
-  CHECK(settings_without_effect(suite_with(R"("toy")")).empty());
-  CHECK(settings_without_effect(suite_with(R"({"method": "toy", "set": {"gap": 3}})")) ==
-        std::vector<std::string>{line});
-  CHECK(settings_without_effect(suite_with(R"({"method": "toy", "set": {"gap": 3, "size": 2}})"))
-            .empty());
-  CHECK(settings_without_effect(
-            suite_with(R"({"method": "toy", "set": {"gap": {"sweep": [3, 4]}}})")) ==
-        std::vector<std::string>{line});
-  // At size 2 it acts.
-  CHECK(settings_without_effect(suite_with(R"({"method": "toy", "set": {"gap": {"sweep": [3, 4]},
-                                                  "size": {"sweep": [1, 2]}}})"))
-            .empty());
-  Suite suite = suite_with(R"("toy", {"method": "toy", "as": "large", "set": {"size": 2}})");
-  apply_settings(suite, {{"toy", "gap", "3"}});
-  CHECK(settings_without_effect(suite) == std::vector<std::string>{line});
-}

@@ -200,16 +200,3 @@ TEST_CASE("A rate is known by its name, a secondary one by the name it begins wi
   CHECK(rate_spec("anything").role == RateRole::kSecondary);
   CHECK(rate_text("F1_no_truck", 0.5) == "0.5000");
 }
-
-TEST_CASE("Notes are broken between words") {
-  CHECK(wrapped("one two  three", 7) == "one two\nthree\n");
-  CHECK(shortened_middle("abcdefghij", 7) == "ab...ij");
-  CHECK(shortened_end("stra\xC3\x9F"
-                      "e",
-                      6) ==
-        "stra\xC3\x9F"
-        "e");
-  CHECK(shortened_end("stra\xC3\x9F"
-                      "enbahn",
-                      8) == "stra\xC3\x9F...");
-}

@@ -78,14 +78,6 @@ TEST_CASE("What was said and what came true stand in a table for each method tha
                                      Contains("mean gap 0.100"));
 }
 
-TEST_CASE("What is displayed alike is marked alike") {
-  RunResults results = two_by_two();
-  results.cells[2].scores[0].rates[0].value = 90.0001;
-  const std::vector<TextTable> tables = make_tables(results, paper_layout());
-  CHECK(tables[0].rows[0].cells[0].mark == Mark::kBest);
-  CHECK(tables[0].rows[0].cells[3].mark == Mark::kBest);
-}
-
 TEST_CASE("Markdown columns are aligned, LaTeX is escaped") {
   const RunResults results = two_by_two();
   const std::string markdown = tables_markdown(results, {make_tables(results)[0]});

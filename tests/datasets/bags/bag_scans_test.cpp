@@ -167,30 +167,6 @@ TEST_CASE("A file of indices that is damaged is an error", "[bags]") {
   check_says(error("100300000000,1,2\n"), {"line 1", "point 2 of a scan of 2"});
 }
 
-TEST_CASE("Indices of scans that are not read are a note", "[bags]") {
-  const TemporaryFolder folder;
-  const std::string path = straight_drive(folder);
-  folder.write("indices.csv", "100300000000,0\n100500000000\n");
-  SequenceOptions options;
-  options.frames = parse_frame_range("2:3");
-  const Sequence window = open_sequence(path, options);
-  REQUIRE(window.labels);
-  CHECK(window.labels->labels(window.scans->load(0)) == std::vector<std::uint32_t>{9});
-  CHECK(window.labels->labels(window.scans->load(1)) == std::vector<std::uint32_t>{0});
-  check_says(notes_of(window), {"1 of 2 scans are labelled", "1 line of it"});
-  options.frames = parse_frame_range("3:3");
-  const Sequence beyond = open_sequence(path, options);
-  CHECK(beyond.labels == nullptr);
-  CHECK(beyond.scans->size() == 1);
-  check_says(notes_of(beyond), {"none of the 2 lines of indices.csv", "1 scan,", "no labels"});
-  for (const char* lines : {"5,0\n", ""}) {  // Of another recording, or of nothing.
-    folder.write("indices.csv", lines);
-    const Sequence other = open_sequence(path, {});
-    CHECK(other.labels == nullptr);
-    check_says(notes_of(other), {"none of the", "of indices.csv", "4 scans"});
-  }
-}
-
 TEST_CASE("By no label rule is a scan without indices scored", "[bags]") {
   const TemporaryFolder folder;
   const std::string path = straight_drive(folder);
@@ -211,20 +187,6 @@ TEST_CASE("By no label rule is a scan without indices scored", "[bags]") {
   folder.write("rule.json", R"({"moving": [0, 251]})");
   check_says(message_of<ConfigurationError>([&] { (void)open_sequence(path, options); }),
              {"'rule'", "label id 0", "scans without labels"});
-}
-
-TEST_CASE("Frames of a bag are numbers of messages", "[bags]") {
-  const TemporaryFolder folder;
-  const std::string path = straight_drive(folder);
-  SequenceOptions options;
-  options.frames = parse_frame_range("1:3:2");
-  const Sequence sequence = open_sequence(path, options);
-  REQUIRE(sequence.scans->size() == 2);
-  CHECK(sequence.scans->load(1).name == "000003");
-  CHECK(sequence.scans->load(0).time_s == Approx(0.2));  // Since the first of all.
-  options.frames = parse_frame_range("2:9");
-  check_says(message_of<DataError>([&] { (void)open_sequence(path, options); }),
-             {"/points", "4 frames from 0 to 3"});
 }
 
 TEST_CASE("Poses of another frame go on by tf_static, also one that comes late", "[bags]") {
@@ -482,19 +444,6 @@ TEST_CASE("Scans without a pose, and messages without a point, are left out and 
   check_says(join(sequence.losses, "\n"), {"2 messages of 7 left out", "1 without a point",
                                            "1 that cannot be read, the first:", "message 5",
                                            "1 of 5 scans have no pose: 1 before the first pose"});
-}
-
-TEST_CASE("Points in the frame that the poses are told in stand in the world", "[bags]") {
-  const TemporaryFolder folder;
-  MadeBag bag(folder / "drive.bag");
-  bag.odometry(100, shift(0), "body");
-  add_clouds(bag, "odom");
-  bag.odometry(101, shift(10), "body");
-  const std::string path = bag.finish();
-  const Sequence sequence = open_sequence(path, {});
-  CHECK(sequence.records->point_frame() == PointFrame::kWorld);
-  CHECK(sequence.scans->load(0).points.at(0).isApprox(Eigen::Vector3f(9, 100.1F, 1), 1e-5F));
-  check_says(notes_of(sequence), {"'odom'", "the world frame of its poses", "--points sensor"});
 }
 
 TEST_CASE("A bag that was cut opens with what is there, and says so", "[bags]") {

@@ -57,44 +57,6 @@ TEST_CASE("A false byte in a MCAP file never gives a message that was not publis
   }
 }
 
-TEST_CASE("Records of unknown kinds are passed over, and one of kind 0 is damage", "[bags][mcap]") {
-  const TemporaryFolder folder;
-  const auto written = [&](McapOp odd) {
-    return folder.write("odd.mcap", mcap_of({{McapOp::kHeader, std::string(8, '\0')},
-                                             {McapOp::kChannel, channel(7, 0, "/a", "ros1")},
-                                             {McapOp::kMessage, message(7, 1, "first")},
-                                             {odd, "?"},
-                                             {McapOp::kMessage, message(7, 2, "second")},
-                                             {McapOp::kDataEnd, std::string(4, '\0')}}));
-  };
-  const auto passed = open_bag(written(static_cast<McapOp>(0x9F)));
-  CHECK(passed->topics().front().messages == 2);
-  CHECK(passed->topics().front().encoding == MessageEncoding::kRos1);
-  CHECK(passed->message(0, 1) == "second");
-  CHECK(passed->damage().empty());
-  const auto damaged = open_bag(written(McapOp::kInvalid));
-  CHECK(damaged->topics().front().messages == 1);
-  CHECK_THAT(damaged->damage().at(0), Catch::Contains("type 0"));
-}
-
-TEST_CASE("Channels of one topic are one topic if their types agree", "[bags][mcap]") {
-  const TemporaryFolder folder;
-  const auto bag =
-      open_bag(folder.write("topics.mcap", mcap_of({{McapOp::kSchema, schema(1, "a_msgs/msg/A")},
-                                                    {McapOp::kSchema, schema(2, "a_msgs/msg/B")},
-                                                    {McapOp::kChannel, channel(1, 1, "/t", "cdr")},
-                                                    {McapOp::kChannel, channel(2, 1, "/t", "cdr")},
-                                                    {McapOp::kChannel, channel(3, 2, "/t", "cdr")},
-                                                    {McapOp::kMessage, message(2, 5, "later")},
-                                                    {McapOp::kMessage, message(1, 4, "earlier")},
-                                                    {McapOp::kMessage, message(3, 4, "other")},
-                                                    {McapOp::kDataEnd, std::string(4, '\0')}})));
-  REQUIRE(bag->topics().size() == 2);
-  CHECK(bag->topics()[0].messages == 2);
-  CHECK(bag->message(0, 0) == "earlier");
-  CHECK(bag->topics()[1].type == "a_msgs/B");
-}
-
 TEST_CASE("A chunk that claims more than it can hold is refused before memory is asked for",
           "[bags][mcap]") {
   const TemporaryFolder folder;

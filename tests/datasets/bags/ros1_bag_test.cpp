@@ -102,17 +102,6 @@ TEST_CASE("A bag cut at any byte is read as far as it goes, and says so", "[bags
   }
 }
 
-TEST_CASE("Of a cut chunk that is packed, what comes before the cut is read", "[bags]") {
-  const TemporaryFolder folder;
-  const std::string bytes = read_text(write_bag(folder, 1, 50, Ros1Compression::kNone));
-  const auto path = folder.write("cut.bag", bytes.substr(0, 4117 + 1500));
-  const Ros1Bag bag(path);
-  CHECK(all_messages(bag).size() > 10);
-  CHECK(all_messages(bag).size() < 50);
-  check_says(join(bag.damage(), " "),
-             {"cut.bag", "it is truncated", "a chunk is truncated", "can be read"});
-}
-
 TEST_CASE("A bag that was never closed is read whole", "[bags]") {
   const TemporaryFolder folder;
   for (const std::string& name : kWrittenByRos) {
@@ -205,16 +194,6 @@ TEST_CASE("Lengths that lie ask for no memory", "[bags]") {
       CHECK_THAT(error.what(), Catch::Contains("x.bag"));
     }
   }
-}
-
-TEST_CASE("Notes on damage stay few", "[bags]") {
-  DamageNotes notes;
-  CHECK(notes.empty());
-  for (int i = 0; i < 1000; ++i) notes.add("note " + std::to_string(i));
-  notes.add("note 3");
-  REQUIRE(notes.sentences().size() == DamageNotes::kMost + 1);
-  CHECK(notes.sentences()[0] == "note 0");
-  CHECK_THAT(notes.sentences().back(), Catch::Contains("992 places"));
 }
 
 }  // namespace

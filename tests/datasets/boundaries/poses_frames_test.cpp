@@ -20,29 +20,6 @@ std::string tum_says(const std::string& content) {
 
 }  // namespace
 
-TEST_CASE("a quaternion may be a thousandth too long or too short", "[poses]") {
-  const Eigen::Vector3d t = Eigen::Vector3d::Zero();
-  const auto turn = [&](double w) { return rigid_pose(t, Eigen::Vector4d(w, 0, 0, 0), "here"); };
-  for (const double length : {1.0008, 0.9992}) {
-    CHECK(turn(length).matrix() == Eigen::Matrix4d::Identity());
-  }
-  for (const double length : {1.0015, 0.9985}) {
-    check_says(message_of<DataError>([&] { turn(length); }),
-               {"here: the quaternion has length", "order of the columns", "with more digits"});
-  }
-}
-
-TEST_CASE("a rotation may deviate by a thousandth", "[poses]") {
-  // diag(1 + e, 1, 1): |R^T R - I| = 2 e + e^2.
-  const auto stretched = [](double e) {
-    Eigen::Matrix<double, 3, 4> matrix = Eigen::Matrix<double, 3, 4>::Identity();
-    matrix(0, 0) += e;
-    return rigid_pose(matrix, "here");
-  };
-  CHECK((stretched(0.0004).matrix() - Eigen::Matrix4d::Identity()).norm() < 1e-14);
-  check_says(message_of<DataError>([&] { stretched(0.0006); }), {"not a rotation", "0.0012"});
-}
-
 TEST_CASE("times of poses are finite, and poses of one time are near each other", "[poses]") {
   const std::string rest = " 0 0 0 0 0 0 1\n", near = " 0.2 0 0 0 0 0 1\n",
                     far = " 0.21 0 0 0 0 0 1\n";

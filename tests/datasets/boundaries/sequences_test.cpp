@@ -21,16 +21,6 @@ Sequence one_scan(const TemporaryFolder& folder, const std::vector<float>& value
   return open_sequence(folder.text(), {});
 }
 
-/// The messages for a scan of `points` points, of which the first is no return.
-std::vector<std::string> lines_of(std::size_t points) {
-  const TemporaryFolder folder;
-  std::vector<float> values(4 * points, 1.0F);
-  values[0] = std::nanf("");
-  const Sequence sequence = one_scan(folder, values);
-  (void)sequence.scans->load(0);
-  return left_out_lines(sequence);
-}
-
 std::string world_pcd(const std::string& fields, const std::string& viewpoint,
                       const std::string& row) {
   const bool intensity = fields != "x y z";
@@ -41,17 +31,6 @@ std::string world_pcd(const std::string& fields, const std::string& viewpoint,
 
 }  // namespace
 
-TEST_CASE("shares of missing returns are told with the digits that they have", "[no-returns]") {
-  const std::string rest = " are missing returns (NaN or at the origin) and are left out";
-  using Lines = std::vector<std::string>;
-  CHECK(lines_of(66) == Lines{"1.5 % of the stored points" + rest});
-  CHECK(lines_of(100) == Lines{"1.0 % of the stored points" + rest});
-  CHECK(lines_of(101) == Lines{"0.99 % of the stored points" + rest});
-  CHECK(lines_of(200) == Lines{"0.50 % of the stored points" + rest});
-  CHECK(lines_of(10000) == Lines{"0.01 % of the stored points" + rest});
-  CHECK(lines_of(10001) == Lines{"1 of 10,001 stored points" + rest});
-}
-
 TEST_CASE("scans without times are a period apart", "[files]") {
   const TemporaryFolder folder;
   for (const char* name : {"a.bin", "b.bin", "c.bin"}) write_cloud(folder / name, {{1, 2, 3}});
@@ -61,32 +40,6 @@ TEST_CASE("scans without times are a period apart", "[files]") {
   CHECK(open_sequence(folder.text(), {}).scans->load(2).time_s == 1.0);
   folder.write("sequence.json", R"({"scan_period_s": 0})");
   CHECK_THROWS_WITH(open_sequence(folder.text(), {}), Catch::Contains("a number above 0"));
-}
-
-TEST_CASE("times of a DynamicMap count from the first file", "[dynamicmap]") {
-  const TemporaryFolder folder;
-  for (const char* name : {"pcd/07.pcd", "pcd/09.pcd"}) {
-    folder.write(name, world_pcd("x y z", "0 0 0 1 0 0 0", "1 2 3"));
-  }
-  SequenceOptions options;
-  options.frames = parse_frame_range("9:9");
-  CHECK(open_sequence(folder.text(), options).scans->load(0).time_s == 2 * 0.1);
-  folder.write("sequence.json", R"({"scan_period_s": 0.5})");
-  CHECK(open_sequence(folder.text(), {}).scans->load(1).time_s == 1.0);
-}
-
-TEST_CASE("labels in the intensity go up to 2^24, and need an intensity", "[dynamicmap]") {
-  const TemporaryFolder folder;
-  folder.write("sequence.json", R"({"labels": {}})");
-  folder.write("pcd/0.pcd", world_pcd("x y z intensity", "0 0 0 1 0 0 0", "1 2 3 16777215"));
-  const Sequence sequence = open_sequence(folder.text(), {});
-  // The rule of this layout holds where none is given: 1 moves.
-  CHECK(sequence.label_rule.moving == std::vector<std::uint16_t>{1});
-  CHECK(sequence.label_rule.ignored.empty());
-  CHECK(sequence.labels->labels(sequence.scans->load(0)) == std::vector<std::uint32_t>{16777215});
-  folder.write("pcd/0.pcd", world_pcd("x y z", "0 0 0 1 0 0 0", "1 2 3"));
-  const Scan scan = sequence.scans->load(0);
-  CHECK_THROWS_WITH(sequence.labels->labels(scan), Catch::Contains("0 intensities for 1 points"));
 }
 
 TEST_CASE("ranges of an option are checked like those of a file", "[settings]") {
@@ -112,14 +65,6 @@ TEST_CASE("a missing return stored as zero is none in a world far from its origi
     const Sequence sequence = open_sequence(folder.text(), {});
     CHECK(sequence.scans->load(0).points.empty());
   }
-}
-
-TEST_CASE("a segment without its root, and a root without sequences, are told", "[semantickitti]") {
-  const TemporaryFolder folder;
-  check_says(message_of<DataError>([] { open_sequence("kitti-05", {}); }),
-             {"kitti-05: no such folder; the segment of that name is ROOT:kitti-05"});
-  check_says(message_of<UsageError>([&] { open_sequence(folder.text() + ":05", {}); }),
-             {"holds no folder sequences/"});
 }
 
 TEST_CASE("what is left out of the own vehicle is told once something was read", "[ego]") {

@@ -127,27 +127,6 @@ TEST_CASE("no scan of 4 numbers a point is refused, whatever it looks like", "[b
   }
 }
 
-TEST_CASE("no scan of 4 numbers alike is refused", "[bin]") {
-  // All columns have one distribution, and beams alternate.
-  for (unsigned seed = 1; seed <= 40; ++seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> any(-20.0F, 20.0F);
-    Rows beams(1 + seed % 8);
-    for (Row& beam : beams) beam = {any(random), any(random), any(random), any(random)};
-    const float noise = seed % 2 == 0 ? 1.0F : 0.1F;
-    Rows rows(seed % 3 == 0 ? 630 : 4200, Row(4));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        rows[i][k] = beams[i % beams.size()][k] + noise * any(random);
-      }
-    }
-    INFO(seed);
-    check_accepted(rows);
-  }
-  check_accepted(Rows(630, Row{0, 0, 0, 0}));
-  check_accepted(widened(Rows(210, Row{1, -2, 3, 0.5F}), 5));  // Too few points to decide.
-}
-
 TEST_CASE("all scans have to be of another width, and of a size that fits it", "[bin]") {
   const Rows four = simulated_rows("vlp16"), five = widened(four, 5);
   const TemporaryFolder folder;

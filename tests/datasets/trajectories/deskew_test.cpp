@@ -130,27 +130,6 @@ TEST_CASE("times of points are read in any unit and from any zero", "[deskew]") 
   CHECK(deskewed_error({.size = "8", .clock = 4321.0}) < 1e-3);
 }
 
-TEST_CASE("poses by row are enough to take motion out", "[deskew]") {
-  CHECK(deskewed_error({.times = false}) < 1e-3);
-}
-
-TEST_CASE("the own vehicle is left out where it stands", "[deskew]") {
-  const TemporaryFolder folder;
-  write_drive(folder, {});
-  SequenceOptions options;
-  options.deskew = true;
-  options.drop_ego = parse_ego_region("3");
-  options.T_sensor = "0,0,0,0,0,0,1";
-  options.time_offset_s = 0.0;
-  const Sequence sequence = open_sequence(folder.text(), options);
-  // Results say how the scans were read.
-  CHECK_THAT(sequence.record().deskew, Catch::Contains(" in seconds from the time of the scan"));
-  CHECK(sequence.record().T_sensor == "0,0,0,0,0,0,1");
-  CHECK(sequence.record().time_offset_s == 0.0);
-  CHECK(error_of(sequence) < 1e-3);
-  CHECK(ego_free_source(sequence) != nullptr);
-}
-
 TEST_CASE("times that cannot be used are errors that say why", "[deskew]") {
   const TemporaryFolder folder;
   const auto error = [&](const Drive& drive) {

@@ -313,12 +313,3 @@ TEST_CASE("clocks that differ are told by how much, and agree once that is said"
   write_timed(folder, drive, 0.0);
   CHECK(found_with(folder, {}).empty());
 }
-
-TEST_CASE("at a steady speed nobody can tell that clocks differ", "[inspect][slow]") {
-  SimulationOptions options = suburb(sparse_vlp16(), 14);
-  options.scene = "highway";
-  const EditedSequence drive(options);
-  const TemporaryFolder folder;
-  write_timed(folder, drive, 0.12);
-  CHECK(found_with(folder, {}).empty());
-}

@@ -54,14 +54,6 @@ TEST_CASE("matrices stand in rows, in blocks, with and without times", "[traject
   CHECK(stamped.rows[0].stamp == kStamp);
 }
 
-TEST_CASE("the last row of a 4 x 4 matrix is 0 0 0 1", "[trajectories]") {
-  check_says(error_of("0 1 0 0 -1 0 0 0 0 0 1 0 1 2 3 1\n"),
-             {"line 1: the last row of the 4 x 4 matrix is 1 2 3 1", "transposed"});
-  check_says(error_of("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 2\n"), {"line 4", "0 0 0 2"});
-  check_says(error_of("1 0 0 0\n0 1 0 0\n0 0 1 0\n"), {"line 3", "ends within a matrix"});
-  check_says(error_of("1 0 0 0\n0 1 0 0\n0 0 1\n"), {"line 3: 3 numbers", "expected 4"});
-}
-
 TEST_CASE("TUM and EuRoC are told apart", "[trajectories]") {
   const PoseFile tum = read(
       "p.txt", "# timestamp x y z\n1317384506.400000123 1 2 3 0 0 " + kHalf + " " + kHalf + "\n");

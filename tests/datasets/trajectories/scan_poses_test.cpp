@@ -149,21 +149,6 @@ TEST_CASE("poses of a body are taken to its sensor", "[trajectories]") {
   check_says(open_error(folder, options), {"--T-sensor 2,0,0", "length 9"});
 }
 
-TEST_CASE("between two poses it is the body that turns, and the sensor goes round it",
-          "[trajectories]") {
-  const TemporaryFolder folder;
-  write_scans(folder, {"0.bin", "1.bin", "2.bin"});
-  folder.write("times.txt", "1000\n1000.5\n1001\n");
-  folder.write("poses.txt",
-               "1000 0 0 0 0 0 0 1\n1001 0 0 0 0 0 0.7071067811865476 0.7071067811865476\n");
-  SequenceOptions options;
-  options.T_sensor = "1,0,0,0,0,0,1";
-  const Sequence sequence = open_sequence(folder.text(), options);
-  // Half of a quarter turn; the chord's middle would be at (0.5, 0.5).
-  const Eigen::Vector3d middle = sequence.scans->pose(1).translation();
-  CHECK((middle - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm() < 1e-12);
-}
-
 TEST_CASE("points in the world frame come back to the sensor", "[trajectories]") {
   const TemporaryFolder folder;
   folder.write("0.bin", floats({5, 7, 0, 1}));
@@ -172,18 +157,6 @@ TEST_CASE("points in the world frame come back to the sensor", "[trajectories]")
   // (5, 7, 0) lies five metres along the world's y from (5, 2, 0), which is ahead.
   const Scan scan = open_sequence(folder.text(), {}).scans->load(0);
   CHECK((scan.points.at(0) - Eigen::Vector3f(5, 0, 0)).norm() < 1e-5F);
-}
-
-TEST_CASE("a file of poses beside the scans is no scan", "[trajectories]") {
-  const TemporaryFolder folder;
-  write_scans(folder, {"0.bin"});
-  folder.write(
-      "poses.pcd",
-      "VERSION 0.7\nFIELDS x y z roll pitch yaw\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\nCOUNT 1 1 "
-      "1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n3 0 0 0 0 0\n");
-  SequenceOptions options;
-  options.poses = "poses.pcd";
-  CHECK(positions(open_sequence(folder.text(), options)) == std::vector<double>{3});
 }
 
 TEST_CASE("SemanticKITTI takes stamped poses by time, and times.txt has one meaning",

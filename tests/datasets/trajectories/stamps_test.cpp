@@ -36,13 +36,6 @@ TEST_CASE("what is no time, or too far, is none", "[trajectories]") {
   CHECK_FALSE(parse_stamp("1e300"));
 }
 
-TEST_CASE("a stamp and its text are one", "[trajectories]") {
-  for (const Nanoseconds stamp : {Nanoseconds{0}, Nanoseconds{1}, Nanoseconds{-1},
-                                  Nanoseconds{-1500000000}, Nanoseconds{1317384506400000123}}) {
-    CHECK(parse_stamp(stamp_text(stamp)) == stamp);
-  }
-}
-
 TEST_CASE("the unit of times is told by their size, else by their spacing", "[trajectories]") {
   CHECK(usual_time_unit(1317384506.4, 0.1) == TimeUnit::kSeconds);
   CHECK(usual_time_unit(1317384506400.0, 100) == TimeUnit::kMilliseconds);
@@ -125,16 +118,6 @@ TEST_CASE("digits behind the seconds of a name are read as they must have been w
         second + 99999000);
 }
 
-TEST_CASE("dates may have a T and a time zone", "[trajectories]") {
-  const auto utc = parse_date("2011-09-26 13:02:25.5");
-  REQUIRE(utc);
-  CHECK(parse_date("2011-09-26T13:02:25.5Z") == utc);
-  CHECK(parse_date("2011-09-26T15:02:25.5+02:00") == utc);
-  CHECK(parse_date("2011-09-26T08:32:25.5-0430") == utc);
-  CHECK_FALSE(parse_date("2011-09-26T13:02:25.5+2"));
-  CHECK_FALSE(parse_date("2011-09-26"));
-}
-
 TEST_CASE("files of times hold numbers or the dates of KITTI's raw data", "[trajectories]") {
   const TemporaryFolder folder;
   const auto dates = folder.write("timestamps.txt",
@@ -150,12 +133,4 @@ TEST_CASE("files of times hold numbers or the dates of KITTI's raw data", "[traj
              {"mixed.txt: line 3", "'7.5' is not a date"});
   const auto bad = folder.write("bad.txt", "2011-13-26 13:02:25.9\n");
   check_says(message_of<DataError>([&] { read_stamp_file(bad); }), {"bad.txt: line 1"});
-}
-
-TEST_CASE("a time that is nearer to 0 than any double is 0", "[trajectories]") {
-  const TemporaryFolder folder;
-  const auto times = folder.write("times.txt", "1e-400\n7.5\n-1e-999\n1e-400\n9\n");
-  const StampColumn column = read_stamp_file(times);
-  CHECK(column.stamps == std::vector<Nanoseconds>{0, 7500000000, 0, 0, 9000000000});
-  CHECK(column.since_first == std::vector<double>{0.0, 7.5, 0.0, 0.0, 9.0});
 }

@@ -66,39 +66,6 @@ TEST_CASE("the longest beam ends", "[dufomap]") {
         static_cast<std::size_t>(FreeWalk::kLongest) + 1);
 }
 
-TEST_CASE("a line comes to a distance after a bounded number of voxels", "[dufomap]") {
-  constexpr double kDistance = 50.0;
-  for (const Eigen::Vector3d& start : starts()) {
-    for (const Eigen::Vector3d& direction : directions()) {
-      CellWalk walk(start, direction, voxel_index(start, 1.0));
-      int steps = 0;
-      while (walk.next_distance() < kDistance && steps < 1000) {
-        walk.advance();
-        ++steps;
-      }
-      INFO(start.transpose() << " along " << direction.transpose());
-      CHECK(steps <= kDistance * direction.lpNorm<1>() + 3.0);
-    }
-    // Without a direction there is no next voxel.
-    CHECK(std::isinf(CellWalk(start, {0, 0, 0}, voxel_index(start, 1.0)).next_distance()));
-  }
-}
-
-TEST_CASE("a wish to stop is heard within the beams of a scan", "[dufomap]") {
-  toy::HeldScans scans;
-  std::vector<Eigen::Vector3d> points;
-  for (int k = 0; k < 1000; ++k) points.emplace_back(5.0, 0.1 * k - 50.0, 1.0);
-  scans.add_world({0, 0, 0}, points);
-  const Parameters parameters;
-  const Scan scan = scans.load(0);
-  ScanGrid grid;
-  const auto ends = beam_ends(scan, voxels_of(scan, parameters.voxel_size), parameters, grid);
-  const std::atomic<bool> cancel = true;
-  RunContext context;
-  context.cancel = &cancel;
-  CHECK_THROWS_AS(cast_beams(scan, ends, parameters, grid, context), Cancelled);
-}
-
 TEST_CASE("blocks anywhere are made once, found and removed", "[dufomap]") {
   SparseBlocks<int> blocks;
   CHECK(blocks.find({0, 0, 0}) == nullptr);

@@ -79,15 +79,6 @@ TEST_CASE("a pole of which a far query sees only the ground is lost", "[erasor]"
   CHECK(removed_by(empty_road(), first, small_grid()) == Numbers{4, 5, 6, 7, 8, 9});
 }
 
-TEST_CASE("nothing beyond the range or the height window is touched", "[erasor]") {
-  Parameters parameters = small_grid();
-  parameters.maximum_range = 3.0;  // The car is at 3.09 m.
-  CHECK(removed_by(empty_road(), road_and(kCar), parameters).empty());
-  parameters = small_grid();
-  parameters.maximum_height = 1.2;
-  CHECK(removed_by(empty_road(), road_and(kCar), parameters) == Numbers{4, 5});
-}
-
 TEST_CASE("heights are above the road below the sensor", "[erasor]") {
   // The same scene seen from 1.73 m up; with the height left at zero it is below the window.
   const auto lowered = [](Points points) {

@@ -152,15 +152,6 @@ TEST_CASE("freedom: a sensor of sparse directions has a column for each of them"
   }
 }
 
-TEST_CASE("freedom: directions nearer to each other than the beams share square pixels") {
-  SensorModel sensor = four_rows();
-  sensor.azimuth_step = 0.9 * kDegree;
-  const DepthView view = view_for(sensor, kFarthest);
-  CHECK(view.columns == 360);
-  CHECK(view.column_width == view.resolution);
-  CHECK(view.azimuth_min == sensor.azimuth_min);
-}
-
 TEST_CASE("freedom: the nearest return of a pixel counts, from the least range on") {
   const DepthView view = view_for(four_rows(), kFarthest);
   Scan scan;

@@ -53,11 +53,6 @@ TEST_CASE("what moves before a wall goes and the wall stays", "[hmm_mos]") {
   }
 }
 
-TEST_CASE("nothing goes where nothing moves", "[hmm_mos]") {
-  const toy::HeldScans scans = wall_with({Plate{}}, 12);
-  CHECK(toy::masks_of(*make_hmm_mos(sound()), scans).removed_count() == 0);
-}
-
 // The object comes to a free place in scan 7 and is stationary: from scan 12 on, its voxels have
 // not changed for five scans.
 TEST_CASE("what came and stands is static again after the window", "[hmm_mos]") {
@@ -116,12 +111,6 @@ TEST_CASE("a least range of hmm_mos that leaves nothing is refused", "[hmm_mos]"
   }
   parameters.max_range = 8.5;
   CHECK_NOTHROW(make_hmm_mos(parameters));
-}
-
-TEST_CASE("a bound too far for the distances is refused", "[hmm_mos]") {
-  Parameters parameters;
-  parameters.spread = 3.0;
-  CHECK_THROWS_AS(BeliefModel(parameters), ConfigurationError);
 }
 
 TEST_CASE("equal scores have no threshold", "[hmm_mos]") {

@@ -61,14 +61,6 @@ TEST_CASE("the ground is the points near the one plane that is nearly level") {
   CHECK(count(find_ground(rounded(slope(0.2)), parameters)) < 200);
 }
 
-TEST_CASE("fewer than fifty points have no ground") {
-  Points points = slope(0.0);
-  points.resize(50);
-  CHECK(count(find_ground(rounded(points), {})) == 50);
-  points.resize(49);
-  CHECK(count(find_ground(rounded(points), {})) == 0);
-  CHECK(find_ground({}, {}).empty());
-}
 #endif
 
 TEST_CASE("noise is far from its neighbours, by the scan's own measure") {
@@ -114,14 +106,6 @@ TEST_CASE("nearest neighbours are those of a comparison of all pairs") {
   for (const double m : mean) expected.push_back(m > limit ? 1 : 0);
   CHECK(find_noise(rounded(points), parameters, 2) == expected);
   CHECK(count(expected) > 5);
-}
-
-TEST_CASE("a scan of no more points than neighbours has no noise") {
-  Parameters parameters;
-  parameters.noise_neighbours = 3;
-  const Points three{{0, 0, 0}, {1, 0, 0}, {90, 0, 0}};
-  CHECK(count(find_noise(rounded(three), parameters, 1)) == 0);
-  CHECK(find_noise({}, parameters, 1).empty());
 }
 
 TEST_CASE("an outlier hits its cell without a beam") {

@@ -22,18 +22,6 @@ Piece usual(int sector) {
   return {sector % 2 == 0 ? -1.70 : -1.72, sector % 4 < 2 ? 0.02 : 0.03};
 }
 
-/// What is ground of sector 5 in a second scan, where it is as given, after one of usual ground.
-int second_scan(const Piece& piece) {
-  GroundSegmentation segmentation({});
-  segmentation.find_ground(ring_scan(usual), 1);
-  const Mask mask = segmentation.find_ground(
-      ring_scan([&](int sector) { return sector == 5 ? piece : usual(sector); }), 1);
-  for (int sector = 0; sector < 16; ++sector) {
-    if (sector != 5) CHECK(ground_of(mask, sector) == 100);
-  }
-  return ground_of(mask, 5);
-}
-
 }  // namespace
 
 TEST_CASE("patchwork: level ground all around is ground, and what stands on it is not") {
@@ -65,60 +53,6 @@ TEST_CASE("patchwork: what is below the ground and reflects little is mirrored")
   scan.reflectance.assign(scan.size(), 0.1F);
   for (std::size_t i = 1600; i < 1606; ++i) scan.points[i].z() = -2.5F;
   CHECK(count(GroundSegmentation({}).find_ground(scan, 1)) == 1606);
-}
-
-TEST_CASE("patchwork: thresholds are means and deviations of the planes so far") {
-  GroundThresholds thresholds(1.723);
-  CHECK(thresholds.elevation(0) == 0.0);
-  CHECK(thresholds.flatness(3) == 0.0);
-  // Mean -1.7, sample deviation 0.1; of flatness 2 and 1.
-  for (const int ring : {0, 2}) {
-    thresholds.store(ring, -1.8, 1.0);
-    thresholds.store(ring, -1.7, 2.0);
-    thresholds.store(ring, -1.6, 3.0);
-  }
-  CHECK(thresholds.elevation(0) == 0.0);  // Not before the scan is over.
-  thresholds.adapt();
-  CHECK(thresholds.elevation(0) == Approx(-1.7 + 3 * 0.1));
-  CHECK(thresholds.elevation(2) == Approx(-1.7 + 2 * 0.1));
-  CHECK(thresholds.flatness(0) == Approx(3.0));
-  CHECK(thresholds.elevation(1) == 0.0);
-  CHECK(thresholds.sensor_height() == Approx(1.7));
-  // The last 1,000 count.
-  for (int i = 0; i < 1000; ++i) thresholds.store(0, -1.0, 0.5);
-  thresholds.adapt();
-  CHECK(thresholds.elevation(0) == Approx(-1.0));
-  CHECK(thresholds.flatness(0) == Approx(0.5));
-  CHECK(thresholds.sensor_height() == Approx(1.0));
-  GroundThresholds one(1.0);
-  one.store(1, -0.8, 0.1);
-  one.adapt();
-  CHECK(one.elevation(1) == Approx(-0.8));
-  CHECK(one.sensor_height() == 1.0);  // Told by the innermost ring alone.
-}
-
-TEST_CASE("patchwork: at first all planes below the sensor are low enough, later those like them") {
-  GroundSegmentation first({});
-  const auto with_table = [](int sector) {
-    return sector == 5 ? Piece{-0.5, 0.06} : usual(sector);
-  };
-  CHECK(ground_of(first.find_ground(ring_scan(with_table), 1), 5) == 100);
-  CHECK(second_scan({-0.5, 0.06}) == 0);
-  // A plane above the sensor that points up does not face it.
-  const auto with_roof = [](int sector) { return sector == 5 ? Piece{0.5, 0.02} : usual(sector); };
-  CHECK(ground_of(GroundSegmentation({}).find_ground(ring_scan(with_roof), 1), 5) == 0);
-}
-
-TEST_CASE("patchwork: a plane that is not low must be as flat as the others of its ring") {
-  // Flatness is the square of the roughness, except for 100 / 99 and rounding: 8 planes each have 4
-  // and 9 cm^2, the mean is 6.5 and the sample deviation 2.58. A plane is flat enough below 9.1, by
-  // TGR below 10.4 (all times 100 / 99).
-  CHECK(second_scan({-0.9, 0.025}) == 100);
-  CHECK(second_scan({-0.9, 0.0315}) == 100);  // 9.9: TGR takes it.
-  CHECK(second_scan({-0.9, 0.033}) == 0);     // 10.9.
-  CHECK(second_scan({-0.9, 0.05}) == 0);
-  // Low enough is what is below the mean -1.71 and three deviations of 1.03 cm.
-  CHECK(second_scan({-1.69, 0.05}) == 100);
 }
 
 TEST_CASE("patchwork: a narrow strip is no ground by being flat") {

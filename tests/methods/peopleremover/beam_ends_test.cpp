@@ -89,36 +89,6 @@ TEST_CASE("beams to flat ground end one voxel diagonal above it", "[peopleremove
   }
 }
 
-TEST_CASE("a lone point and points on a line are faced by their own beam", "[peopleremover]") {
-  // No plane through them: the normal is towards the sensor, the cut v_d = 0.3464 m.
-  const double diagonal = 0.2 * std::sqrt(3.0);
-  CHECK(lengths({{10, 0, 0}}, 0.2)[0] == Approx(10.0 - diagonal));
-  Points line;
-  for (int k = -2; k <= 2; ++k) line.emplace_back(10.0, 0.01 * k, 0.0);
-  const std::vector<double> m = lengths(line, 0.2);
-  CHECK(m[2] == Approx(10.0 - diagonal));  // The nearest: it owns the shadow.
-  // The plane is x = 10 - v_d for the others too.
-  CHECK(m[0] == Approx((10.0 - diagonal) * line[0].norm() / 10.0));
-}
-
-TEST_CASE("a point within two voxel diagonals has no beam", "[peopleremover]") {
-  // 2 v_d = 0.6928 m. Beyond, the cut of a lone point leaves r - v_d.
-  CHECK(lengths({{0.69, 0, 0}}, 0.2)[0] == 0.0);
-  CHECK(lengths({{0.70, 0, 0}}, 0.2)[0] == Approx(0.70 - 0.2 * std::sqrt(3.0)));
-}
-
-TEST_CASE("a point in front of the shadow's plane casts its own", "[peopleremover]") {
-  // Ground, and one point 0.5 m above it, 10.3 m away: 1.23 m below the sensor. The plane 0.346 m
-  // above the ground passes below it, so the ground's shadow says nothing about it. Its own normal
-  // is the ground's (its neighbours are ground): it ends 0.346 m higher, 0.884 m below the sensor.
-  std::vector<double> distances;
-  for (double d = 8.0; d < 13.0; d *= 1.004) distances.push_back(d);
-  Points points = ground(1.73, distances);
-  points.emplace_back(10.3, 0.0, -1.23);
-  const std::vector<double> m = lengths(points, 0.2);
-  CHECK(m.back() / points.back().norm() == Approx(0.884 / 1.23).margin(0.02));
-}
-
 TEST_CASE("beam ends are those of a search through all points", "[peopleremover]") {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> side(-1.0, 1.0);
@@ -139,16 +109,6 @@ TEST_CASE("beam ends are those of a search through all points", "[peopleremover]
     REQUIRE(fast[k] >= 0.0);
     REQUIRE(fast[k] <= points[k].norm());
   }
-}
-
-TEST_CASE("points of equal direction and of equal range", "[peopleremover]") {
-  // Duplicates, and two points along one ray: the nearer owns the shadow (r - v_d), the farther is
-  // behind that plane.
-  const double end = 5.0 - 0.2 * std::sqrt(3.0);
-  const std::vector<double> m = lengths({{0, 7, 0}, {0, 5, 0}, {0, 5, 0}}, 0.2);
-  CHECK(m[0] == Approx(end));
-  CHECK(m[1] == Approx(end));
-  CHECK(m[2] == Approx(end));
 }
 
 TEST_CASE("surface normals", "[peopleremover]") {

@@ -115,14 +115,4 @@ TEST_CASE("a beam of any length and direction visits the walls between its ends"
   }
 }
 
-TEST_CASE("a beam across the whole lattice ends at its end", "[peopleremover]") {
-  const double far = kVoxelLimit;
-  for (const Eigen::Vector3d& end : {Eigen::Vector3d(far, far, far),
-                                     Eigen::Vector3d(far, 0.0, -far), Eigen::Vector3d(0, far, 0)}) {
-    const Voxels ends{voxel_key(Eigen::Vector3i((-end).cast<int>())),
-                      voxel_key(Eigen::Vector3i(end.cast<int>()))};
-    CHECK(freed_by(ends, {}, -end, end) == ends);
-  }
-}
-
 }  // namespace raymoval::peopleremover_test

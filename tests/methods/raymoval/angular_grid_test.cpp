@@ -48,14 +48,6 @@ TEST_CASE("eqs 2-3: steps and bins") {
   CHECK(grid.bin_of(-pi, -0.1) == 0);
 }
 
-TEST_CASE("directions outside the vertical field of view have no bin") {
-  const AngularGrid grid = coarse_grid();
-  CHECK_FALSE(grid.bin_of(0.0, pi / 4));  // The upper end is open.
-  CHECK(grid.bin_of(0.0, -pi / 4) == 2);  // The lower end is closed.
-  CHECK_FALSE(grid.bin_of(0.0, 1.0));
-  CHECK_FALSE(grid.bin_of(0.0, -1.0));
-}
-
 TEST_CASE("eqs 4-5: the centre of a bin lies in that bin") {
   const AngularGrid grid{36, 9, -0.4, 0.1};
   CHECK(grid.azimuth_centre(0) == Approx(-pi + pi / 36));
@@ -138,26 +130,6 @@ TEST_CASE("grids of the sensor's steps have as many bins as the steps need", "[r
   sensor.azimuth_step = sensor.elevation_step = 0.0;  // Unknown.
   CHECK(grid_for(sensor, parameters).azimuth_bins == 720);
   CHECK(grid_for(sensor, parameters).elevation_bins == 450);
-}
-
-TEST_CASE("the rows reach beyond the sensor's view by the margin, and not beyond the poles",
-          "[raymoval]") {
-  constexpr double kHalfPi = 1.5707963267948966;
-  Parameters parameters;
-  parameters.elevation_margin = 9.0;  // A twentieth of pi.
-  SensorModel sensor;
-  sensor.elevation_min = -0.3;
-  sensor.elevation_max = 0.1;
-  CHECK(grid_for(sensor, parameters).elevation_min == Approx(-0.3 - kHalfPi / 10));
-  CHECK(grid_for(sensor, parameters).elevation_max == Approx(0.1 + kHalfPi / 10));
-  sensor.elevation_min = -1.5;
-  sensor.elevation_max = 1.45;
-  CHECK(grid_for(sensor, parameters).elevation_min == -kHalfPi);
-  CHECK(grid_for(sensor, parameters).elevation_max == kHalfPi);
-  // Given numbers of bins take precedence over the sensor's steps.
-  sensor.azimuth_step = sensor.elevation_step = 0.01;
-  parameters.azimuth_bins = parameters.elevation_bins = 1;
-  CHECK(grid_for(sensor, parameters).size() == 1);
 }
 
 }  // namespace raymoval::raymoval_test

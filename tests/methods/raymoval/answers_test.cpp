@@ -80,43 +80,6 @@ TEST_CASE("a point that eq. 11 alone speaks against is not told to have been see
   CHECK(shares["it lies in f"] > 0.5);
 }
 
-TEST_CASE("the first point of a scan has its answer and its reason, too", "[raymoval]") {
-  // The sensor looks away from the box, which is where its turn begins.
-  const World world = box_before_wall(3.0, std::numbers::pi);
-  REQUIRE(world.owner[0][0] == kOtherOwner);
-  ConfiguredMethod method = on_toy_grid("offline");
-  CHECK(toy::masks_of(*method.make(), world).get(0)[0] == 1);
-  CHECK(reasons_of(method, world, kOtherOwner)["a scan saw t"] > 80);
-}
-
-namespace {
-
-/// Counts what the masks of a run say.
-class Said : public RemovalSink {
- public:
-  void accept(std::size_t /*scan*/, const Mask& mask) override {
-    for (const std::uint8_t says : mask) ++counts[says];
-  }
-  std::map<int, int> counts;
-};
-
-}  // namespace
-
-TEST_CASE("masks say 0 or 1, validated or not", "[raymoval]") {
-  const World world = box_before_wall();
-  for (const char* variant : {"offline", "online"}) {
-    for (const bool validate : {false, true}) {
-      ConfiguredMethod method = on_toy_grid(variant);
-      set_parameter(method.configuration, "validate", validate);
-      Said said;
-      method.make()->run(world, said, {});
-      for (const auto& [says, count] : said.counts) CHECK((says == 0 || says == 1));
-      CHECK(said.counts[0] > 1000);
-      if (std::string(variant) != "online") CHECK(said.counts[1] > 1000);
-    }
-  }
-}
-
 namespace {
 
 /// Names of the stages that a run is timed by.

@@ -44,12 +44,6 @@ TEST_CASE("eq. 8: windows wrap around in azimuth and stop at the rows' end") {
   CHECK(windowed_percentile(hits, grid, 1, 0.5, 4) == windowed_percentile(hits, grid, 1, 0.5, 1));
 }
 
-TEST_CASE("a window without any hit has no reference") {
-  const AngularGrid grid{4, 1, 0.0, 0.1};
-  const std::vector<float> hits = {kInf, kInf, kInf, 3};
-  CHECK(windowed_percentile(hits, grid, 1, 0.9, 1) == std::vector<float>{3, kInf, 3, 3});
-}
-
 TEST_CASE("the windowed minimum has its own reach along rows and columns") {
   const AngularGrid grid{4, 3, 0.0, 0.3};
   const std::vector<float> ranges = {kInf, kInf, kInf, kInf,  //

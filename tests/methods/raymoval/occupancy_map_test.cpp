@@ -79,18 +79,6 @@ TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
   }
 }
 
-TEST_CASE("a brick that is filled voxel by voxel ends with few boxes") {
-  OccupancyMap map(0.2);
-  std::size_t most = 0;
-  for (int k = 0; k < 512; ++k) {
-    map.insert({k / 64, k / 8 % 8, k % 8});
-    map.update_boxes(1);
-    most = std::max(most, map.boxes(0).size());
-  }
-  // The filled voxels are three boxes at most: a block, rows on it and the last voxels.
-  CHECK(most <= 3);
-}
-
 TEST_CASE("a map tells at least the memory of what is in it") {
   OccupancyMap map(0.2);
   for (int brick = 0; brick < 100; ++brick) {
@@ -120,27 +108,6 @@ TEST_CASE("a voxel nearby is found across the borders of bricks") {
     bool expected = false;
     for_each_around(voxel, dilation, [&](const VoxelIndex& at) { expected |= map.contains(at); });
     REQUIRE(map.contains_near(voxel, dilation) == expected);
-  }
-}
-
-TEST_CASE("a map that fills and empties again and again does not grow") {
-  OccupancyMap map(0.2);
-  std::size_t bytes = 0;
-  for (int round = 0; round < 50; ++round) {
-    Random random(2);
-    for (int k = 0; k < 2000; ++k) {
-      map.insert({random.integer(0, 31), random.integer(0, 31), random.integer(0, 31)});
-    }
-    map.update_boxes(1);
-    if (round == 1) bytes = map.memory_bytes();
-    if (round > 1) REQUIRE(map.memory_bytes() == bytes);
-    for (int x = 0; x < 32; ++x) {
-      for (int y = 0; y < 32; ++y) {
-        for (int z = 0; z < 32; ++z) map.erase({x, y, z});
-      }
-    }
-    map.update_boxes(1);
-    CHECK(map.size() == 0);
   }
 }
 

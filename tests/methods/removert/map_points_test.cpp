@@ -38,17 +38,6 @@ Points random_points(int count, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("removert: a cell of the map is the centroid of its points over all scans") {
-  const CellLattice lattice(0.05);
-  // The first two are in the cell [0.05, 0.1) x [0, 0.05) x [-0.05, 0), the third is beside it.
-  const MapPoints map =
-      map_of(lattice, {{{0.06F, 0.01F, -0.01F}, {0.11F, 0.01F, -0.01F}}, {{0.09F, 0.02F, -0.03F}}});
-  const auto found = positions(map);
-  REQUIRE(found.size() == 2);
-  CHECK((found[0] - Eigen::Vector3d(0.075, 0.015, -0.02)).norm() < 1e-6);
-  CHECK((found[1] - Eigen::Vector3d(0.11, 0.01, -0.01)).norm() < 1e-6);
-}
-
 TEST_CASE("removert: centroids are those of a plain table of cells") {
   const CellLattice lattice(0.2);
   const std::vector<Points> scans = {random_points(5000, 1), random_points(5000, 2)};

@@ -37,11 +37,6 @@ TEST_CASE("removert: images have round(V alpha) rows and round(H alpha) columns"
   }
 }
 
-TEST_CASE("removert: straight ahead is the middle of the image") {
-  // Row 125 / 2 = 62.5 rounds to 63, column 900 / 2 = 450.
-  CHECK(pixel(grid_with(false, true), {10, 0, 0}) == 63 * 900 + 450);
-}
-
 TEST_CASE("removert: points outside the vertical field of view are in no pixel unless clamped") {
   CHECK(pixel(grid_with(false, true), polar(5, -25.1)) == kOutside);
   CHECK(pixel(grid_with(false, true), polar(5, 25.1)) == kOutside);

@@ -6,7 +6,6 @@
 #include "core/files/file_kind.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/field_names.h"
-#include "datasets/clouds/las/las_head.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -54,14 +53,10 @@ TEST_CASE("Each map has its points, with all fields") {
     CleanPaths paths;
     paths.map = folder.path() / ("map" + std::string(extension));
     paths.removed = folder.path() / ("removed" + std::string(extension));
-    paths.labelled = folder.path() / ("labelled" + std::string(extension));
     CHECK(write(paths, four_points()).empty());
     CHECK(column(read_records(paths.map), "ring") == std::vector<double>{0, 1});
     CHECK(column(read_records(paths.removed), "ring") == std::vector<double>{2, 3});
-    const PointRecords labelled = read_records(paths.labelled);
-    CHECK(column(labelled, "ring") == std::vector<double>{0, 1, 2, 3});
-    CHECK(column(labelled, "label") == std::vector<double>{9, 9, 251, 251});
-    CHECK(column(labelled, "x")[2] == 15.0);
+    CHECK(column(read_records(paths.removed), "x")[0] == 15.0);
   }
 }
 
@@ -69,34 +64,10 @@ TEST_CASE("What is in no output is in no map") {
   const TemporaryFolder folder;
   CleanPaths paths;
   paths.map = folder.path() / "map.pcd";
-  paths.labelled = folder.path() / "labelled.pcd";
+  paths.removed = folder.path() / "removed.pcd";
   write(paths, four_points(), {}, {2, 0, 1, 2});
   CHECK(column(read_records(paths.map), "ring") == std::vector<double>{1});
-  CHECK(column(read_records(paths.labelled), "ring") == std::vector<double>{1, 2});
-}
-
-TEST_CASE("A field `label` of the input stays, and ours has another name") {
-  const TemporaryFolder folder;
-  RecordLayout layout = driver_layout();
-  layout.fields[4].name = "label";
-  CleanPaths paths;
-  paths.labelled = folder.path() / "map.pcd";
-  write(paths, four_points(layout));
-  const PointRecords rows = read_records(paths.labelled);
-  CHECK(column(rows, "label") == std::vector<double>{0, 1, 2, 3});
-  CHECK(column(rows, "raymoval_label") == std::vector<double>{9, 9, 251, 251});
-}
-
-TEST_CASE("A labelled map of voxels keeps what was removed apart") {
-  const TemporaryFolder folder;
-  CleanPaths paths;
-  paths.labelled = folder.path() / "map.pcd";
-  CleanWriting writing;
-  writing.voxel_size = 1000.0;
-  write(paths, four_points(), writing);
-  const PointRecords rows = read_records(paths.labelled);
-  CHECK(column(rows, "label") == std::vector<double>{9, 251, 251});
-  CHECK(column(rows, "x")[0] == Approx(10.2));
+  CHECK(column(read_records(paths.removed), "ring") == std::vector<double>{2});
 }
 
 TEST_CASE("A map of nothing is a whole file without points") {
@@ -108,33 +79,6 @@ TEST_CASE("A map of nothing is a whole file without points") {
     writing.voxel_size = voxel;
     write(paths, four_points(), writing, {1, 1, 1, 1});
     CHECK(read_records(paths.map).size() == 0);
-  }
-}
-
-TEST_CASE("Maps of LAS scans keep their scale and reference system") {
-  const TemporaryFolder folder;
-  const RecordLayout layout = parse_point_layout("x:f8 y:f8 z:f8");
-  PointRecords rows = records_of(layout, {{0.125, 0, 0}, {0.25, 0, 0}});
-  LasNotes notes;
-  notes.scale = Eigen::Vector3d(0.005, 0.005, 1e-7);
-  notes.offset.setZero();
-  notes.reference_system = "PROJCRS[\"made up\"]";
-  rows.las = std::make_shared<LasNotes>(notes);
-  const auto scans = std::make_shared<RecordedScans>(
-      std::vector{rows}, std::vector{Pose(Eigen::Translation3d(10.0, 0.0, 0.0))});
-  for (const char* kind : {"whole", "voxels"}) {
-    INFO(kind);
-    CleanPaths paths;
-    paths.map = folder.path() / (std::string(kind) + ".las");
-    CleanWriting writing;
-    if (std::string(kind) == "voxels") writing.voxel_size = 0.05;
-    write(paths, scans, writing, {0, 0});
-    const PointRecords map = read_records(paths.map);
-    REQUIRE(map.las != nullptr);
-    CHECK(map.las->reference_system == notes.reference_system);
-    // A grid of 0.1 um would end 215 m from its offset.
-    CHECK(map.las->scale == Eigen::Vector3d(0.005, 0.005, 1e-4));
-    CHECK(column(map, "x")[0] == Approx(10.125));
   }
 }
 

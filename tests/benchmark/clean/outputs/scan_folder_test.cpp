@@ -103,8 +103,3 @@ TEST_CASE("Scans of a recording become .pcd files with a pose file") {
   CHECK_THROWS_WITH(check_paths({.scans = folder.path() / "cleaned.bag"}),
                     Contains("recordings are not written"));
 }
-
-TEST_CASE("Scans that are in no files are not written one by one") {
-  const Sequence street = open_sequence("street", {});
-  CHECK_THROWS_WITH(plan_scan_folder(street), Contains("not stored in files"));
-}

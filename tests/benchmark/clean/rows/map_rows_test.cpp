@@ -106,22 +106,6 @@ TEST_CASE("Normals turn with their scan, and stay in the world frame") {
   CHECK(made(PointFrame::kWorld).bytes == rows.bytes);
 }
 
-TEST_CASE("Rows are those of the points that a scan has") {
-  const auto scans = std::make_shared<RecordedScans>(
-      std::vector{records_of(driver_layout(),
-                             {{1, 0, 0, 0, 1, 0}, {NAN, 0, 0, 0, 2, 0}, {3, 0, 0, 0, 3, 0}})},
-      std::vector<Pose>{Pose::Identity()});
-  const Sequence sequence = sequence_of(scans);
-  const MapRows rows(sequence, Coordinates::kFloat, no_progress(), kGoOn);
-  Scan scan = scans->load(0);
-  scan.points.erase(scan.points.begin() + 1);
-  scan.stored_index = {0, 2};
-  const PointRecords stored = scans->records(0);
-  const ScanRows made = rows.rows(scan, &stored);
-  REQUIRE(made.rows.size() == 2);
-  CHECK(value_of(made.rows, 1, "ring") == 3.0);
-}
-
 TEST_CASE("A scan with other fields is an error that names them, and their order does not matter") {
   RecordLayout other;
   other.add("ring", 'U', 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "benchmark/clean/rows/voxel_rows.h"
+#include "benchmark/clean/rows/map_rows.h"
 
 #include <catch2/catch.hpp>
 
