@@ -49,7 +49,7 @@ tidy() {
   local files=("$@")
   if [[ $# -eq 0 ]]; then
     mapfile -t files < <(git ls-files 'core/*.cpp' 'datasets/*.cpp' 'methods/*.cpp' 'eval/*.cpp' \
-      'benchmark/*.cpp')
+      'benchmark/*.cpp' ':!benchmark/kernels')
   fi
   printf '%s\0' "${files[@]}" | xargs -0 -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet &&
     echo "clang.sh: ${#files[@]} files, nothing found."

@@ -17,7 +17,7 @@ set -euo pipefail
 
 packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev liboctomap-dev nlohmann-json3-dev
-  catch2 librapidcheck-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
+  catch2 librapidcheck-dev libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libfmt-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
   liblz4-dev libzstd-dev libsqlite3-dev libyaml-cpp-dev libcairo2-dev fonts-dejavu-core
 )
