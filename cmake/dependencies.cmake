@@ -105,6 +105,8 @@ raymoval_need_module(lz4 liblz4-dev liblz4)
 raymoval_need_module(zstd libzstd-dev libzstd)
 raymoval_need_module(sqlite3 libsqlite3-dev sqlite3)
 raymoval_need_module(yaml_cpp libyaml-cpp-dev yaml-cpp)
+# Archives of NumPy arrays (.npz).
+raymoval_need_module(libzip libzip-dev libzip)
 if(RAYMOVAL_PCL)  # ON or AUTO.
   raymoval_find_pcl()
 endif()

@@ -39,7 +39,7 @@ score sequences in a C++ program.")
 # suites and published tables of the package raymoval.
 set(needed "raymoval (= ${PROJECT_VERSION})" pkg-config libeigen3-dev nlohmann-json3-dev libfmt-dev
     libtbb-dev robin-map-dev libxxhash-dev libhwy-dev libembree-dev liblzf-dev libbz2-dev liblz4-dev
-    libzstd-dev libsqlite3-dev libyaml-cpp-dev zlib1g-dev liboctomap-dev libcairo2-dev)
+    libzstd-dev libsqlite3-dev libyaml-cpp-dev libzip-dev zlib1g-dev liboctomap-dev libcairo2-dev)
 if(raymoval_has_pcl)
   list(APPEND needed libpcl-dev)
 endif()

@@ -183,7 +183,7 @@ Sequence open_files(Layout::Path path, const SequenceOptions& options, const Ope
 Layout files_layout() {
   Layout layout;
   layout.name = "files";
-  layout.expected = "a folder of .pcd, .ply, .bin or .npy scans with poses.txt";
+  layout.expected = "a folder of .pcd, .ply, .bin, .las, .npy or .npz scans with poses.txt";
   layout.forms = {{"FOLDER", layout.expected}};
   layout.pose_place = PosePlace::kRowOfScan;
   layout.class_names = semantickitti_class_names();

@@ -124,8 +124,8 @@ std::string scans_below_text(const fs::path& folder) {
       throw DataError(
           path +
           ": is one cloud, expected a folder with a file for each scan, and their poses. If "
-          "the points of a merged map name their scan, PDAL splits it: pdal translate map.ply "
-          "scan_#.ply groupby --filters.groupby.dimension=PointSourceId.");
+          "the points of a merged map name their scan, PDAL splits it: pdal translate map.las "
+          "scan_#.las groupby --filters.groupby.dimension=PointSourceId.");
     }
     if (above.empty()) throw DataError(path + ": is a file, expected a folder." + known_text());
     throw DataError(path + ": is a scan, expected the folder of its sequence: " + above + ".");

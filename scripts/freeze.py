@@ -103,8 +103,8 @@ def record(sequence, label):
     return re.sub(r"\b\d+(\.\d+)? (s|ms|min|MiB|GiB)\b", "N", text)
 
 
-CLOUDS = {"bin": ".bin", "pcd": ".pcd", "pcd_records": ".pcd", "ply": ".ply", "ply_records": ".ply",
-          "npy": ".npy"}
+CLOUDS = {"bin": ".bin", "pcd": ".pcd", "pcd_records": ".pcd", "ply": ".ply", "ply_records": ".ply", "las": ".las",
+          "npy": ".npy", "npz": ".npz"}
 BAGS = {"bag_db3": ".db3", "bag_mcap": ".mcap", "bag_ros1": ".bag"}
 BESIDE = {"poses": "poses.txt", "pose_formats": "poses.txt", "times": "times.txt", "calibration": "calib.txt",
           "sequence_json": "sequence.json"}

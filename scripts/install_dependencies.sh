@@ -19,7 +19,7 @@ packages=(
   cmake ninja-build g++ pkg-config libeigen3-dev liboctomap-dev nlohmann-json3-dev
   catch2 librapidcheck-dev libbenchmark-dev libcli11-dev libtbb-dev robin-map-dev libnanoflann-dev libhwy-dev
   libembree-dev libfmt-dev libxxhash-dev liblzf-dev zlib1g-dev libbz2-dev
-  liblz4-dev libzstd-dev libsqlite3-dev libyaml-cpp-dev libcairo2-dev fonts-dejavu-core
+  liblz4-dev libzstd-dev libsqlite3-dev libyaml-cpp-dev libzip-dev libcairo2-dev fonts-dejavu-core
 )
 tests=(clang-format git procps python3-numpy python3-yaml python3-jsonschema)
 python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)

@@ -25,7 +25,7 @@ namespace {
 /// The known formats, the usual first.
 const std::vector<CloudFormat>& cloud_formats() {
   static const std::vector<CloudFormat> formats = {pcd_format(), ply_format(), bin_format(),
-                                                   npy_format()};
+                                                   las_format(), npy_format(), npz_format()};
   return formats;
 }
 
@@ -54,22 +54,14 @@ std::string conversion_text(const std::filesystem::path& path) {
            "PLY -O in." +
            ending + " -SAVE_CLOUDS.";
   };
-  static const std::string kPdal =
-      " is not read or written. PDAL converts it to PLY and back: pdal ";
-  static const std::string kAsPly =
-      " out.ply --writers.ply.storage_mode=\"little endian\". If the points of a merged map name "
-      "their scan, scan_#.ply in place of out.ply, and groupby "
-      "--filters.groupby.dimension=PointSourceId, write a file for each scan.";
   static const std::string kTable =
       "clouds as text are not read or written. NumPy converts them: numpy.save(\"out.npy\", "
       "numpy.loadtxt(\"in.txt\", \"f4\")), with delimiter=\",\" for commas and skiprows=1 for a "
       "line of names.";
   static const std::map<std::string, std::string> texts = {
-      {".las", "LAS" + kPdal + "translate in.las" + kAsPly},
-      {".laz", "LAZ" + kPdal + "translate in.laz" + kAsPly},
-      {".npz",
-       "archives of arrays are not read. Save an array by itself: numpy.save(\"out.npy\", "
-       "numpy.load(\"in.npz\")[\"points\"])."},
+      {".laz",
+       "LAZ, compressed LAS, is not read or written. Decompress it first: laszip -i in.laz -o "
+       "out.las, or pdal translate in.laz out.las."},
       {".gz", "compressed files are not read. Decompress them: gunzip in.gz."},
       {".e57", "E57 is not read. " + each_scan("e57")},
       {".ptx", "PTX is not read. " + each_scan("ptx")},

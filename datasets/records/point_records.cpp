@@ -94,7 +94,7 @@ PointRecords PointRecords::chosen(const std::vector<std::uint8_t>& keep) const {
     throw InternalError("a choice of " + std::to_string(keep.size()) + " among " +
                         std::to_string(size()) + " records");
   }
-  PointRecords result{layout, {}, 0, 1, viewpoint};
+  PointRecords result{layout, {}, 0, 1, viewpoint, las};
   result.width = static_cast<std::uint64_t>(
       std::count_if(keep.begin(), keep.end(), [](std::uint8_t kept) { return kept != 0; }));
   result.bytes.resize(result.width * layout.row_bytes);

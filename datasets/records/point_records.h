@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +43,8 @@ struct RecordLayout {
   bool operator==(const RecordLayout&) const = default;
 };
 
+struct LasNotes;
+
 /// The points of one scan with all stored fields, bit for bit: N records of `layout.row_bytes`
 /// bytes. Points without a return are included; row i is stored point i.
 struct PointRecords {
@@ -51,6 +54,8 @@ struct PointRecords {
   std::uint64_t width = 0, height = 1;
   /// PCD: tx ty tz qw qx qy qz.
   std::optional<Eigen::Matrix<double, 7, 1>> viewpoint = std::nullopt;
+  /// LAS: facts of its head, for a LAS file that is written from these points (see las_head.h).
+  std::shared_ptr<const LasNotes> las = nullptr;
 
   [[nodiscard]] std::size_t size() const {
     return layout.row_bytes == 0 ? 0 : bytes.size() / layout.row_bytes;

@@ -161,6 +161,24 @@ holds "the decision is the same" test "$(points sure.pcd)" -eq "$(points unsure.
 holds "a field says how sure" grep -aqx "property float confidence" sure.ply
 holds "nobody is sure unasked" test "$(grep -ac confidence unsure.pcd)" -eq 0
 
+# A map in LAS has every point.
+expect 0 "" clean drive "${online[@]}" -o whole.las
+holds "LAS has every point" python3 - "$(points all/static.pcd)" <<'PYTHON'
+import struct, sys
+las = open("whole.las", "rb").read()
+assert las[:4] == b"LASF" and las[24:26] == b"\1\4", "LAS 1.4"
+assert struct.unpack_from("<H", las, 6)[0] & 16, "the reference system is WKT"
+first, = struct.unpack_from("<I", las, 96)
+points, = struct.unpack_from("<Q", las, 247)
+size, = struct.unpack_from("<H", las, 105)
+assert points == int(sys.argv[1]) and len(las) == first + points * size
+steps, scale = struct.unpack_from("<3i", las, first), struct.unpack_from("<3d", las, 131)
+offset, bounds = struct.unpack_from("<3d", las, 155), struct.unpack_from("<6d", las, 179)
+for axis in range(3):
+    place = steps[axis] * scale[axis] + offset[axis]
+    assert bounds[2 * axis + 1] - 1e-6 <= place <= bounds[2 * axis] + 1e-6
+PYTHON
+
 # With any result, no unfinished file is left.
 outputs=(-o map.pcd --dynamic map2.pcd --labels labels_out --scans map_scans --picture map.png --quiet)
 expect 2 "cleaning took more than 600 MiB of memory (see --memory-limit) and was ended. Nothing was" \

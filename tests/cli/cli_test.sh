@@ -18,7 +18,7 @@ expect 0 "oracle" list
 for what in methods variants protocols columns sensors sequences scenes simulated-sensors \
   suites; do expect 0 "" list "$what"; done
 expect 0 "FILE.db3 " list sequences
-expect 0 "a folder of .pcd, .ply, .bin or .npy scans with poses.txt" list sequences
+expect 0 "a folder of .pcd, .ply, .bin, .las, .npy or .npz scans with poses.txt" list sequences
 for name in raymoval raymoval:online noop erasor dynamicmap protocol:erasor; do
   for form in "" --markdown; do expect 0 "" describe "$name" ${form:+"$form"}; done
 done

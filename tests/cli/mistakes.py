@@ -112,10 +112,29 @@ def ply(properties, body, form="binary_little_endian", count=2):
 XYZ = ["float x", "float y", "float z"]
 
 
+def las(version=4, point_format=6, points=2, size=30, body=None):
+    head = bytearray(375)
+    head[:4], head[24], head[25] = b"LASF", 1, version
+    struct.pack_into("<HIIBH", head, 94, 375, 375, 0, point_format, size)
+    struct.pack_into("<6d", head, 131, 0.001, 0.001, 0.001, 0, 0, 0)
+    struct.pack_into("<Q", head, 247, points)
+    return bytes(head) + (bytes(points * size) if body is None else body)
+
+
 def npy(descr, shape, body):
     text = f"{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}"
     text += " " * (-(len(text) + 11) % 64) + "\n"
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode() + body
+
+
+def npz(*names):
+    import io  # pylint: disable=import-outside-toplevel
+    import zipfile  # pylint: disable=import-outside-toplevel
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name in names:
+            archive.writestr(name + ".npy", npy("'<f4'", "(2, 4)", bytes(32)))
+    return buffer.getvalue()
 
 
 def bins(count=3, body=struct.pack("<8f", 5, 2, 3, 0, 4, 5, 6, 0)):
@@ -194,8 +213,13 @@ MISTAKES = [
     ("ply", "a list in each point", scan("a.ply", ply(XYZ + ["list uchar int n"], bytes(26))), ["s"],
      ["a.ply", "line", "no list"]),
     ("ply", "no PLY file", scan("a.ply", b"solid cube\nfacet normal 0 0 1\n"), ["s"], ["a.ply", "ply"]),
-    ("las", "LAS", scan("a.las", b"LASF"), ["s"], ["a.las", "pdal translate"]),
-    ("npz", "an archive", scan("a.npz", b"PK"), ["s"], ["a.npz", "numpy.save"]),
+    ("las", "LAZ", scan("a.laz", b"LASF"), ["s"], ["laz", "laszip"]),
+    ("las", "LAZ under the name .las", scan("a.las", las(point_format=128 + 6)), ["s"],
+     ["a.las", "LAZ", "laszip"]),
+    ("las", "cut off", scan("a.las", las(points=5, body=bytes(60))), ["s"], ["a.las", "5", "truncated"]),
+    ("las", "not a LAS file", scan("a.las", b"x,y,z\n1,2,3\n"), ["s"], ["a.las", "LASF"]),
+    ("las", "an unknown format of points", scan("a.las", las(point_format=11)), ["s"],
+     ["a.las", "11", "0 to 10"]),
     ("bin", "five numbers a point", scan("0.bin", bytes(20 * 3)), ["s"],
      ["0.bin", "60 bytes", "16", "--point-layout"]),
     ("bin", "a layout that does not fit", {**scan("0.bin", bytes(32))},
@@ -212,6 +236,9 @@ MISTAKES = [
     ("npy", "cut off", scan("a.npy", npy("'<f4'", "(4, 4)", bytes(20))), ["s"], ["a.npy", "20 bytes", "truncated", "again"]),
     ("npy", "one row of numbers", scan("a.npy", npy("'<f4'", "(16,)", bytes(64))), ["s"],
      ["a.npy", "16", "N x"]),
+    ("npz", "several arrays", scan("a.npz", npz("left", "right")), ["s"],
+     ["a.npz", "left", "right", "points or arr_0"]),
+    ("npz", "cut off", scan("a.npz", npz("points")[:-30]), ["s"], ["a.npz", "truncated"]),
     ("poses", "none there", bins(), ["s"], ["poses.txt", "--poses", "KISS-ICP", "identity"]),
     ("poses", "too few", {**bins(), "s/poses.txt": 2 * ROW}, ["s"], ["2 poses", "3 scans"]),
     ("poses", "rows of five numbers", {**bins(), "s/poses.txt": 3 * "1 2 3 4 5\n"}, ["s"],

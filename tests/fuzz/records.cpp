@@ -30,6 +30,11 @@ void check_round_trips(const PointRecords& records) {
       write_and_read(records, "again.bin", {point_layout_text(records.layout)});
   require(bin.bytes == records.bytes, "records change in .bin");
   (void)write_and_read(records, "again.ply");
+  // Coordinates that LAS cannot hold are refused, and records too long for it.
+  may_refuse([&] {
+    const PointRecords las = write_and_read(records, "again.las");
+    require(las.size() == records.size(), "points are lost in .las");
+  });
 }
 
 /// Tries `bytes` as the file `name`: with all its fields, and as a cloud.
@@ -55,9 +60,17 @@ RAYMOVAL_FUZZ_TARGET(ply_records) {
   try_records("scan.ply", bytes, {});
 }
 
+RAYMOVAL_FUZZ_TARGET(las) {
+  try_records("scan.las", bytes, {});
+}
+
 RAYMOVAL_FUZZ_TARGET(npy) {
   try_records("scan.npy", bytes, {});
   try_records("scan.npy", bytes, {"x y z intensity"});
+}
+
+RAYMOVAL_FUZZ_TARGET(npz) {
+  try_records("scan.npz", bytes, {});
 }
 
 RAYMOVAL_FUZZ_TARGET(point_layout) {

@@ -36,11 +36,13 @@ std::optional<fs::path> relative_to(const fs::path& path, const fs::path& root) 
   return relative;
 }
 
-/// The file name of a cleaned scan: that of the scan, or of a .pcd file for a scan without one.
+/// The file name of a cleaned scan: that of the scan. A scan of an archive becomes an
+/// array, and a scan without a file becomes a .pcd file.
 fs::path written_name(const FileScanSource* files, const Scan& scan) {
   if (files == nullptr) return scan.name + ".pcd";
   const fs::path& path = files->frames()[scan.index].path;
-  return cloud_stem(path) + cloud_extension(path);
+  const std::string extension = cloud_extension(path);
+  return cloud_stem(path) + (extension == ".npz" ? ".npy" : extension);
 }
 
 /// All scans of a sequence have one format, and the same fields.

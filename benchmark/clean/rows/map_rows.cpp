@@ -10,6 +10,7 @@
 #include "core/scan/confidence_store.h"
 #include "core/scan/local_frame.h"
 #include "core/text.h"
+#include "datasets/clouds/las/las_head.h"
 #include "datasets/records/number_types.h"
 
 namespace raymoval {
@@ -152,6 +153,7 @@ void VoxelRows::keep_row(Cell& cell, bool is_new, const std::byte* row) {
 }
 
 void VoxelRows::add(const ScanRows& scan, std::size_t point) {
+  if (las_ == nullptr) las_ = scan.rows.las;
   const Eigen::Vector3d offset = scan.world[point] - origin_;
   const VoxelIndex index = voxel_index(offset, 1.0 / cell_size_);
   const auto [place, is_new] = cells_.try_emplace(voxel_key(index));
@@ -189,6 +191,7 @@ void VoxelRows::take(const std::function<void(const ScanRows& piece)>& give) {
   std::sort(keys.begin(), keys.end());
   for (std::size_t first = 0; first < keys.size(); first += kCellsPerPiece) {
     ScanRows piece{{layout_, {}, 0, 1}, {}};
+    piece.rows.las = las_;
     const std::size_t end = std::min(keys.size(), first + kCellsPerPiece);
     piece.rows.bytes.reserve((end - first) * layout_.row_bytes);
     for (std::size_t i = first; i < end; ++i) append(cells_.at(keys[i]), piece);
@@ -359,6 +362,16 @@ void MapRows::turn_normals(const Scan& scan, PointRecords& rows) const {
   }
 }
 
+std::shared_ptr<const LasNotes> MapRows::las_notes(const PointRecords& stored) const {
+  if (stored.las == nullptr || frame_ == PointFrame::kWorld) return stored.las;
+  // A grid of 0.1 mm covers 200 km; the grid of a scan may only cover the surroundings of the
+  // sensor.
+  constexpr double kFinest = 1e-4;
+  auto notes = std::make_shared<LasNotes>(*stored.las);
+  notes->scale = notes->scale.cwiseAbs().cwiseMax(kFinest);
+  return notes;
+}
+
 ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
   ScanRows result;
   if (stored == nullptr) {
@@ -371,6 +384,7 @@ ScanRows MapRows::rows(const Scan& scan, const PointRecords* stored) const {
                       "when no program writes there.");
     }
     result.rows = copied_rows(scan, *stored, layout_);
+    result.rows.las = las_notes(*stored);
   }
   result.world = world_points(scan, stored);
   if (stored == nullptr || frame_ == PointFrame::kSensor) {
@@ -403,6 +417,7 @@ ScanRows rows_with_confidence(const ScanRows& rows, const RecordLayout& layout,
                               const std::string& steps) {
   const std::size_t size = rows.rows.size(), bytes = rows.rows.layout.row_bytes;
   ScanRows result{{layout, std::vector<std::byte>(size * layout.row_bytes), size, 1}, rows.world};
+  result.rows.las = rows.rows.las;
   for (std::size_t i = 0; i < size; ++i) {
     const float value = confidence_of_steps(static_cast<std::uint8_t>(steps[i]));
     std::memcpy(result.rows.row(i), rows.rows.row(i), bytes);

@@ -110,6 +110,8 @@ class MapRows {
   void check_fields(const Sequence& sequence, Progress& progress, const std::atomic<bool>& cancel);
   [[nodiscard]] std::vector<Eigen::Vector3d> world_points(const Scan& scan,
                                                           const PointRecords* stored) const;
+  /// The parts of a scan's LAS header that a LAS file of the map takes over.
+  [[nodiscard]] std::shared_ptr<const LasNotes> las_notes(const PointRecords& stored) const;
   void turn_normals(const Scan& scan, PointRecords& rows) const;
 
   const Sequence& sequence_;
@@ -164,6 +166,7 @@ class VoxelRows {
   Eigen::Vector3d origin_;
   VoxelMap<Cell> cells_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;  ///< Rows that never move.
+  std::shared_ptr<const LasNotes> las_;               ///< Of the first scan.
 };
 
 }  // namespace raymoval

@@ -105,10 +105,19 @@ CloudFormat ply_format();
 /// layout. Rows are written unchanged.
 CloudFormat bin_format();
 
+/// LAS 1.0 to 1.4 with the point formats 0 to 10; LAS 1.4 with the formats 6 to 8 is written (see
+/// las_encoder.h). Coordinates are float64 fields x, y and z in metres, values of a few bits are
+/// uint8 fields. Extra bytes are fields as described in the file; their scales are not applied.
+CloudFormat las_format();
+
 /// NumPy's .npy: arrays of named fields (N or H x W), and arrays of numbers of one type (N x k or
 /// H x W x k), whose columns are named by the point layout, or x y z intensity field_4 and so on.
 /// Arrays of columns (Fortran order) are read too. Points are written as an array of fields;
 /// numbers of one type that never had names as an array of numbers.
 CloudFormat npy_format();
+
+/// NumPy's .npz, a zip archive of such arrays, stored or deflated: the only array, or the one named
+/// points or arr_0. It is only read.
+CloudFormat npz_format();
 
 }  // namespace raymoval

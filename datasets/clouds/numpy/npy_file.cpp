@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <zip.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <new>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -136,6 +139,111 @@ PointRecords read_npy_records(const CloudBytes& file) {
   return records;
 }
 
+/// Limit of the decompressed size. Deflate cannot give more than 1,032 times its bytes.
+std::uint64_t most_decompressed(std::uint64_t packed) {
+  return std::min<std::uint64_t>(std::uint64_t{1} << 30, packed * 1000 + (1 << 20));
+}
+
+/// @throws DataError if `packed` deflated bytes cannot decompress to `unpacked` bytes within the
+///   limit: 1 GiB, and 1,000 times the compressed bytes plus 1 MiB
+/// @param where begins the message
+void check_decompressed(std::uint64_t packed, std::uint64_t unpacked, const std::string& where) {
+  if (unpacked <= most_decompressed(packed)) return;
+  throw DataError(where + ": decompresses to more than " + grouped_text(most_decompressed(packed)) +
+                  " bytes, the limit for " + grouped_text(packed) +
+                  " compressed ones (1,000 times as many and 1 MiB, at most 1 GiB). Decompress it "
+                  "yourself if you trust it.");
+}
+
+/// A zip archive in memory, by libzip.
+class ZipArchive {
+ public:
+  /// @throws DataError if it is no whole archive
+  ZipArchive(std::string_view bytes, const std::string& where) : where_(where) {
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    if (source == nullptr) throw std::bad_alloc();
+    archive_ = zip_open_from_source(source, ZIP_RDONLY, &error);
+    if (archive_ != nullptr) return;
+    zip_source_free(source);
+    const std::string reason = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    throw DataError(where_ + ": the zip archive cannot be read (" + reason +
+                    "); it looks truncated, or is not a zip archive." + kRereadRemedy);
+  }
+  ~ZipArchive() { zip_discard(archive_); }
+  ZipArchive(const ZipArchive&) = delete;
+  ZipArchive& operator=(const ZipArchive&) = delete;
+
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (zip_uint64_t i = 0; zip_int64_t(i) < zip_get_num_entries(archive_, 0); ++i) {
+      const char* name = zip_get_name(archive_, i, ZIP_FL_ENC_RAW);
+      names.emplace_back(name == nullptr ? "" : name);
+    }
+    return names;
+  }
+
+  /// The content of the file `name`.
+  /// @throws DataError if it is damaged (its checksum is compared), encrypted, or compressed in a
+  ///   way that is not supported; as `check_decompressed`
+  [[nodiscard]] std::string content(const std::string& name) const {
+    zip_stat_t about;
+    if (zip_stat(archive_, name.c_str(), ZIP_FL_ENC_RAW, &about) != 0) fail(name);
+    if (about.encryption_method != ZIP_EM_NONE) {
+      throw DataError(where_ + ": " + name + " is encrypted. Save it without a password.");
+    }
+    check_decompressed(about.comp_size, about.size, where_ + ": " + name);
+    const auto close = [](zip_file_t* file) { zip_fclose(file); };
+    const std::unique_ptr<zip_file_t, decltype(close)> file(
+        zip_fopen_index(archive_, about.index, 0));
+    if (!file) fail(name);
+    std::string content(about.size, '\0');
+    char beyond = 0;  // Reading beyond the end compares the checksum.
+    const bool whole = zip_fread(file.get(), content.data(), content.size()) ==
+                           static_cast<zip_int64_t>(content.size()) &&
+                       zip_fread(file.get(), &beyond, 1) == 0;
+    if (!whole) fail(name);
+    return content;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& name) const {
+    throw DataError(where_ + ": " + name +
+                    " in the zip archive is damaged, or has an unsupported compression. Copy it "
+                    "again, or save it again by numpy.savez.");
+  }
+
+  std::string where_;
+  zip_t* archive_ = nullptr;
+};
+
+/// Calls `read` with the array of an archive that holds the points.
+template <class Read>
+auto read_chosen(const CloudBytes& file, Read&& read) {
+  const std::string where = file.path.string();
+  const ZipArchive archive(file.text, where);
+  std::vector<std::string> names;
+  for (std::string& name : archive.names()) {
+    if (name.ends_with(".npy")) names.push_back(name.substr(0, name.size() - 4));
+  }
+  std::string chosen = names.size() == 1 ? names.front() : "";
+  for (const char* usual : {"arr_0", "points"}) {
+    if (std::find(names.begin(), names.end(), usual) != names.end()) chosen = usual;
+  }
+  if (chosen.empty()) {
+    names.resize(std::min<std::size_t>(names.size(), 20));
+    throw DataError(where + ": holds " +
+                    (names.empty() ? "no array" : "the arrays " + join(names)) +
+                    "; expected one array, or one named points or arr_0. Save the points under "
+                    "such a name.");
+  }
+  const std::string content = archive.content(chosen + ".npy");
+  const std::filesystem::path place = where + ": " + chosen;
+  return read(CloudBytes{place, content, file.reading});
+}
+
 std::string type_text(const PointField& field) {
   return (field.size == 1 ? "'|" : "'<") +
          std::string(1, static_cast<char>(field.type - 'A' + 'a')) + std::to_string(field.size) +
@@ -264,6 +372,16 @@ CloudFormat npy_format() {
     return std::make_unique<NpyEncoder>();
   };
   format.lost = lost_in_npy;
+  return format;
+}
+
+CloudFormat npz_format() {
+  CloudFormat format{".npz"};
+  format.read_cloud = [](const CloudBytes& file, const Eigen::Vector3d& origin) {
+    return read_chosen(file,
+                       [&](const CloudBytes& array) { return read_npy_cloud(array, origin); });
+  };
+  format.read_records = [](const CloudBytes& file) { return read_chosen(file, read_npy_records); };
   return format;
 }
 

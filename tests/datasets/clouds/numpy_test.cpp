@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// .npy files made by hand, after NumPy's description of the format (NEP 1).
+// .npy and .npz files made by hand, after NumPy's description of the format (NEP 1).
+#include <zlib.h>
+
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
@@ -27,6 +29,73 @@ std::string npy_error(const std::string& content, const std::string& name = "a.n
   const TemporaryFolder folder;
   const auto path = folder.write(name, content);
   return message_of<DataError>([&] { read_records(path); });
+}
+
+/// `bytes` in the form of deflate.
+std::string deflated(const std::string& bytes) {
+  z_stream stream{};
+  REQUIRE(deflateInit2(&stream, 9, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) == Z_OK);
+  std::string packed(bytes.size() + 1000, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  REQUIRE(deflate(&stream, Z_FINISH) == Z_STREAM_END);
+  packed.resize(packed.size() - stream.avail_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+template <class Number>
+std::string raw(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof number};
+}
+
+std::uint32_t checksum_of(const std::string& bytes) {
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(::crc32(0, data, static_cast<uInt>(bytes.size())));
+}
+
+struct ZipFile {
+  std::string name, content;
+  bool packed = false, wide = false;  ///< `wide`: its sizes are in a zip64 block.
+};
+
+std::string zip_of(const std::vector<ZipFile>& files, bool zip64 = false) {
+  std::string archive, directory;
+  for (const ZipFile& file : files) {
+    const std::string packed = file.packed ? deflated(file.content) : file.content;
+    const auto method = static_cast<std::uint16_t>(file.packed ? 8 : 0);
+    const auto name_bytes = static_cast<std::uint16_t>(file.name.size());
+    const auto small = [&](std::uint64_t size) {
+      return raw(file.wide ? 0xFFFFFFFFU : static_cast<std::uint32_t>(size));
+    };
+    const std::string extra = file.wide ? raw(std::uint16_t{1}) + raw(std::uint16_t{16}) +
+                                              raw(std::uint64_t{file.content.size()}) +
+                                              raw(std::uint64_t{packed.size()})
+                                        : "";
+    const std::string common = raw(std::uint16_t{20}) + raw(std::uint16_t{0}) + raw(method) +
+                               raw(std::uint32_t{0}) + raw(checksum_of(file.content)) +
+                               small(packed.size()) + small(file.content.size()) + raw(name_bytes) +
+                               raw(static_cast<std::uint16_t>(extra.size()));
+    directory += "PK\x01\x02" + raw(std::uint16_t{20}) + common + raw(std::uint16_t{0}) +
+                 raw(std::uint16_t{0}) + raw(std::uint16_t{0}) + raw(std::uint32_t{0}) +
+                 raw(static_cast<std::uint32_t>(archive.size())) + file.name + extra;
+    archive += "PK\x03\x04" + common + file.name + extra + packed;
+  }
+  const std::size_t start = archive.size();
+  archive += directory;
+  if (zip64) {
+    const std::uint64_t end64 = archive.size();
+    archive += "PK\x06\x06" + raw(std::uint64_t{44}) + std::string(12, '\0') +
+               raw(std::uint64_t{files.size()}) + raw(std::uint64_t{files.size()}) +
+               raw(std::uint64_t{directory.size()}) + raw(std::uint64_t{start});
+    archive += "PK\x06\x07" + raw(std::uint32_t{0}) + raw(end64) + raw(std::uint32_t{1});
+  }
+  const auto count = static_cast<std::uint16_t>(zip64 ? 0xFFFF : files.size());
+  return archive + "PK\x05\x06" + std::string(4, '\0') + raw(count) + raw(count) +
+         raw(static_cast<std::uint32_t>(directory.size())) +
+         raw(zip64 ? 0xFFFFFFFFU : static_cast<std::uint32_t>(start)) + std::string(2, '\0');
 }
 
 const std::string kTwoPoints = npy("'<f4'", "(2, 4)", floats({1, 2, 3, 4, 5, 6, 7, 8}));
@@ -131,4 +200,44 @@ TEST_CASE("what is no array of points is named", "[numpy]") {
              {"is damaged at its column"});
   check_says(npy_error(npy("__import__('os')", "(1, 4)", body)), {"is damaged at its column"});
   check_says(npy_error(npy("'<f4", "(1, 4)", body)), {"head of the array is damaged"});
+}
+
+TEST_CASE("an archive gives its only array, or the one of a usual name", "[numpy]") {
+  const TemporaryFolder folder;
+  const auto size_of = [&](const std::vector<ZipFile>& files, bool zip64 = false) {
+    return read_records(folder.write("a.npz", zip_of(files, zip64))).size();
+  };
+  const std::string none = npy("'<f4'", "(0, 3)", "");
+  CHECK(size_of({{"_.npy", kTwoPoints}}) == 2);
+  CHECK(size_of({{"_.npy", kTwoPoints, true}}) == 2);
+  CHECK(size_of({{"a.npy", none}, {"points.npy", kTwoPoints, true}, {"b.txt", ""}}) == 2);
+  CHECK(size_of({{"a.npy", none}, {"arr_0.npy", kTwoPoints}}) == 2);
+  CHECK(size_of({{"a.npy", kTwoPoints, true, true}}, true) == 2);
+  CHECK(read_cloud(folder.write("a.npz", zip_of({{"a.npy", kTwoPoints}}))).intensity ==
+        std::vector<float>{4, 8});
+  check_says(npy_error(zip_of({{"a.npy", none}, {"b.npy", none}}), "a.npz"),
+             {"holds the arrays a, b", "points or arr_0"});
+  check_says(npy_error(zip_of({{"a.txt", "x"}}), "a.npz"), {"holds no array"});
+  check_says(npy_error(zip_of({}), "a.npz"), {"holds no array"});
+  check_says(npy_error(zip_of({{"a.npy", "x"}}), "a.npz"), {"a.npz: a: is not a .npy file"});
+}
+
+TEST_CASE("cuts and flipped bytes of an archive give points or a DataError", "[numpy]") {
+  for (const std::string& good : {zip_of({{"a.npy", kTwoPoints, true}}),
+                                  zip_of({{"a.npy", kTwoPoints, false, true}}, true)}) {
+    read_cut_and_flipped("a.npz", good, 2, [](const std::filesystem::path& path) {
+      const std::size_t points = read_records(path).size();
+      CHECK(points == 2);
+    });
+  }
+}
+
+TEST_CASE("a member of an archive that is too large for its bytes is not unpacked", "[numpy]") {
+  const std::string bomb = zip_of({{"a.npy", std::string(4 << 20, '\0'), true}});
+  check_says(npy_error(bomb, "a.npz"),
+             {"is not a .npy file"});  // 1,000 times and a MiB are allowed.
+  std::string lies = zip_of({{"a.npy", kTwoPoints, true}});
+  const std::size_t directory = lies.find("PK\x01\x02");
+  lies.replace(directory + 24, 4, raw(0x7FFFFFFFU));
+  check_says(npy_error(lies, "a.npz"), {"decompresses to more than", "1,000 times"});
 }

@@ -86,7 +86,7 @@ TEST_CASE("the layout of a file is that of its records", "[records]") {
   for (int i = 0; i < 5; ++i) {
     const PointRecords made = random_records(random);
     const RecordReading reading{point_layout_text(made.layout)};
-    for (const char* name : {"a.pcd", "a.ply", "a.bin", "a.npy"}) {
+    for (const char* name : {"a.pcd", "a.ply", "a.bin", "a.las", "a.npy"}) {
       CAPTURE(name);
       write_records(folder / name, made);
       CHECK(read_layout(folder / name, reading) == read_records(folder / name, reading).layout);
@@ -212,7 +212,7 @@ TEST_CASE("a point layout that cannot be is named", "[records][layout]") {
 TEST_CASE("a writer refuses what cannot be before the file appears", "[records]") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(PointRecordWriter(folder / "a.npz"), UsageError);
-  check_says(message_of<UsageError>([&] { PointRecordWriter(folder / "a.laz"); }), {"pdal"});
+  check_says(message_of<UsageError>([&] { PointRecordWriter(folder / "a.laz"); }), {"laszip"});
   CHECK_THROWS_AS(format_losses("a.xyz", {}), UsageError);
   PointRecordWriter writer(folder / "a.pcd");
   check_says(message_of<DataError>([&] { writer.start({}); }), {"no field 'x'"});

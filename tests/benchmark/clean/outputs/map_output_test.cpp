@@ -82,6 +82,33 @@ TEST_CASE("A map of nothing is a whole file without points") {
   }
 }
 
+TEST_CASE("Maps of LAS scans keep their scale and reference system") {
+  const TemporaryFolder folder;
+  const RecordLayout layout = parse_point_layout("x:f8 y:f8 z:f8");
+  PointRecords rows = records_of(layout, {{0.125, 0, 0}, {0.25, 0, 0}});
+  LasNotes notes;
+  notes.scale = Eigen::Vector3d(0.005, 0.005, 1e-7);
+  notes.offset.setZero();
+  notes.reference_system = "PROJCRS[\"made up\"]";
+  rows.las = std::make_shared<LasNotes>(notes);
+  const auto scans = std::make_shared<RecordedScans>(
+      std::vector{rows}, std::vector{Pose(Eigen::Translation3d(10.0, 0.0, 0.0))});
+  for (const char* kind : {"whole", "voxels"}) {
+    INFO(kind);
+    CleanPaths paths;
+    paths.map = folder.path() / (std::string(kind) + ".las");
+    CleanWriting writing;
+    if (std::string(kind) == "voxels") writing.voxel_size = 0.05;
+    write(paths, scans, writing, {0, 0});
+    const PointRecords map = read_records(paths.map);
+    REQUIRE(map.las != nullptr);
+    CHECK(map.las->reference_system == notes.reference_system);
+    // A grid of 0.1 um would end 215 m from its offset.
+    CHECK(map.las->scale == Eigen::Vector3d(0.005, 0.005, 1e-4));
+    CHECK(column(map, "x")[0] == Approx(10.125));
+  }
+}
+
 TEST_CASE("What a format cannot hold is said, or refused, before anything is written") {
   const TemporaryFolder folder;
   CleanPaths paths;
