@@ -60,7 +60,7 @@ void register_start(const MovingScans& input, Steps& steps) {
     if (other.fit() > best.fit()) best = other;
     if (is_lost(best)) break;
     poses[i] = best.T_map_sensor;
-    steps.scans[i + 1].determined = best.determined;
+    steps.scans[i + 1].determined &= best.determined;
     map.add(thin.dense, poses[i]);
   }
   const Pose T_first_map = poses[0].inverse();
