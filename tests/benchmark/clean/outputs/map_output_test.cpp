@@ -6,6 +6,7 @@
 #include "core/files/file_kind.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/format/field_names.h"
+#include "datasets/clouds/las/las_head.h"
 #include "tests/benchmark/clean/recorded_scans.h"
 #include "tests/datasets/temporary_folder.h"
 
