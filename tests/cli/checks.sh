@@ -65,9 +65,15 @@ PY
 # for these keys.
 edits_of() {
   python3 - "$@" <<'PY'
-import base64, json, re, sys, zlib
-stream = re.search(r'id="scene-0-review">([^<]*)<', open(sys.argv[1]).read()).group(1)
-edits = {**json.loads(zlib.decompress(base64.b64decode(stream))), "keep": [], "remove": []}
+import json, re, sys, zlib
+text = re.search(r'id="scene-0-review">([^<]*)<', open(sys.argv[1]).read()).group(1)
+digits = [ord("<" if letter == "!" else letter) - ord("#") for letter in text]
+bits = count = 0  # 13 bits in two digits of 91, the lowest first.
+for low, high in zip(digits[::2], digits[1::2] + [0] * (len(digits) % 2)):
+    bits |= (low + 91 * high) << count
+    count += 13
+stream = bits.to_bytes(count // 8 + 1, "little")
+edits = {**json.loads(zlib.decompressobj().decompress(stream)), "keep": [], "remove": []}
 edits.update((key, json.loads(value)) for key, value in (pair.split("=", 1) for pair in sys.argv[2:]))
 print(json.dumps(edits))
 PY
