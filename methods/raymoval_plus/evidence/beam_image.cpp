@@ -196,17 +196,15 @@ BeamImage::Window BeamImage::window_around(const Eigen::Vector3f& mean, float ra
   const Eigen::Vector3f s = R_sensor_world_ * mean;
   const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
   const float half = kWindow * radius, high = half / range / elevation_step_;
-  // The arc sine of up to a half is at most 1.05 of it. Around the axis a voxel is in all columns.
-  const float wide = half < 0.5F * flat ? 1.05F * half / flat / azimuth_step_
-                                        : 0.5F * static_cast<float>(columns_);
   const float row = elevation_bin(s, flat), column = azimuth_bin(s);
   const auto whole = [](float bin) { return static_cast<int>(std::floor(bin)); };
-  return {row,
-          column,
-          std::max(whole(row - high), 0),
-          std::min(whole(row + high), rows_ - 1),
-          whole(column - wide),
-          whole(column + wide)};
+  const int row0 = std::max(whole(row - high), 0);
+  const int row1 = std::min(whole(row + high), rows_ - 1);
+  // Around the axis a voxel is in all columns.
+  if (half >= 0.5F * flat) return {row, column, row0, row1, 0, columns_ - 1};
+  // The arc sine of up to a half is at most 1.05 of it.
+  const float wide = 1.05F * half / flat / azimuth_step_;
+  return {row, column, row0, row1, whole(column - wide), whole(column + wide)};
 }
 
 /// What the beams of a window say of a voxel: whether any comes near it, and whether any passes
