@@ -65,18 +65,13 @@ std::string weakness_text(const RunResults& results, const std::string& method,
     text += " Its worst sequence is " + results.sequences[worst] + " (" +
             rate_text(rate.name, *values[worst]) + ").";
   }
-  for (const TextTable& table : compact_column_tables(results)) {
-    const auto row = std::ranges::find(table.rows, method, &TableRow::label);
-    if (row == table.rows.end()) continue;
-    for (std::size_t i = 0; i < row->cells.size(); ++i) {  // "moving-bus 30.000"
-      const std::string& column = table.groups[0].columns[i];
-      const bool moves = column == "worst mover";
-      if ((!moves && column != "worst static class") || row->cells[i].text == "-") continue;
-      std::string worst_class = row->cells[i].text;
-      worst_class.replace(worst_class.rfind(' '), 1, ", ");
-      text += std::string(" Its worst ") + (moves ? "moving" : "static") + " class is " +
-              worst_class + " % " + (moves ? "removed." : "kept.");
-    }
+  const MethodColumns* columns = results.columns_of(method);
+  if (columns == nullptr) return text;
+  for (const bool moves : {true, false}) {
+    const auto lost = worst_class(*columns, moves ? "rejection" : "preservation");
+    if (!lost) continue;
+    text += std::string(" Its worst ") + (moves ? "moving" : "static") + " class is " + lost->name +
+            ", " + fixed_text(lost->percent, 3) + " % " + (moves ? "removed." : "kept.");
   }
   return text;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "benchmark/result/cell.h"
 
+#include <algorithm>
+
 namespace raymoval {
 namespace {
 
@@ -36,6 +38,12 @@ std::optional<double> rate_of(const std::vector<Rate>& rates, const std::string&
 
 std::optional<double> Score::rate(const std::string& name) const {
   return rate_of(rates, name);
+}
+
+const Interval* Score::interval(const std::string& rate) const {
+  if (!intervals) return nullptr;
+  const auto found = std::ranges::find(intervals->rates, rate, &Interval::name);
+  return found == intervals->rates.end() || !found->low || !found->high ? nullptr : &*found;
 }
 
 const Score* Cell::score(const std::string& protocol) const {

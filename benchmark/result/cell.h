@@ -55,6 +55,8 @@ struct Score {
 
   /// As `rate_of`.
   [[nodiscard]] std::optional<double> rate(const std::string& name) const;
+  /// The interval of a rate, which has both ends; null if there is none.
+  [[nodiscard]] const Interval* interval(const std::string& rate) const;
 };
 
 /// The value of a rate; no value if it is undefined or not among `rates`.

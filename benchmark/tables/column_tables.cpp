@@ -23,18 +23,10 @@ std::vector<const MethodColumns*> shown_methods(const RunResults& results, bool 
   return shown;
 }
 
-/// "moving-person 63.200": the class with the smallest share of correct verdicts.
-std::string worst_class(const MethodColumns& method, const std::string& kind) {
-  std::string text = "-";
-  double worst = 101.0;
-  for (const auto& [column, share] : method.values) {
-    const ColumnName name = parse_column_name(column);
-    if (name.kind != kind || name.group.empty() || !name.axis.empty()) continue;
-    if (share.whole < kNamedClassPoints || *share.percent() >= worst) continue;
-    worst = *share.percent();
-    text = name.group + " " + percent_text(share);
-  }
-  return text;
+/// "moving-person 63.200"
+std::string worst_class_text(const MethodColumns& method, const std::string& kind) {
+  const auto worst = worst_class(method, kind);
+  return worst ? worst->name + " " + fixed_text(worst->percent, 3) : "-";
 }
 
 /// Names of the columns of all methods, in the order of the first that has them.
@@ -112,12 +104,9 @@ std::string general_notes() {
 
 /// "99.131 to 99.689"; empty if there is no such interval.
 std::string interval_text(const Score& score, const std::string& rate) {
-  if (!score.intervals) return "";
-  for (const Interval& interval : score.intervals->rates) {
-    if (interval.name != rate || !interval.low) continue;
-    return rate_text(rate, *interval.low) + " to " + rate_text(rate, *interval.high);
-  }
-  return "";
+  const Interval* interval = score.interval(rate);
+  if (interval == nullptr) return "";
+  return rate_text(rate, *interval->low) + " to " + rate_text(rate, *interval->high);
 }
 
 bool has_interval(const Score& score) {
@@ -178,6 +167,17 @@ TextTable reliability_table(const MethodReliability& method) {
 
 }  // namespace
 
+std::optional<ClassShare> worst_class(const MethodColumns& method, const std::string& kind) {
+  std::optional<ClassShare> worst;
+  for (const auto& [column, share] : method.values) {
+    const ColumnName name = parse_column_name(column);
+    if (name.kind != kind || name.group.empty() || !name.axis.empty()) continue;
+    if (share.whole < kNamedClassPoints || (worst && *share.percent() >= worst->percent)) continue;
+    worst = {name.group, *share.percent()};
+  }
+  return worst;
+}
+
 std::vector<TextTable> compact_column_tables(const RunResults& results) {
   const std::vector<const MethodColumns*> methods = shown_methods(results, false);
   if (methods.empty()) return {};
@@ -191,8 +191,8 @@ std::vector<TextTable> compact_column_tables(const RunResults& results) {
     for (const char* name : {"precision", "recall", "residue", "preservation"}) {
       row.cells.push_back({percent_text(method->find(name))});
     }
-    row.cells.push_back({worst_class(*method, "rejection")});
-    row.cells.push_back({worst_class(*method, "preservation")});
+    row.cells.push_back({worst_class_text(*method, "rejection")});
+    row.cells.push_back({worst_class_text(*method, "preservation")});
     if (has_objects) row.cells.push_back({percent_text(method->find(kWorstParked))});
   }
   table.notes.push_back(

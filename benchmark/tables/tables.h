@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,8 @@
 namespace raymoval {
 
 /// The tables of a run in the order in which they are shown: for each protocol the rates of every
-/// method (best bold, second underlined) with their means, sweeps, differences of the protocols'
-/// rankings, the content of the removed points, the controls, then the time of each stage (the
-/// paper's Table 3).
+/// method (best bold, second underlined) with their means, sweeps, the content of the removed
+/// points, the controls, then the time of each stage (the paper's Table 3).
 std::vector<TextTable> make_tables(const RunResults& results, const TableOptions& options = {});
 
 /// The values of `TableOptions::what`: "accuracy", "sweeps", ... in the order of the tables.
@@ -61,6 +61,15 @@ std::vector<TextTable> sweep_tables(const RunResults& results, const TableOption
 /// largest lost share (of classes with at least `kNamedClassPoints` points). Counts are added up
 /// over sequences. None without columns.
 std::vector<TextTable> compact_column_tables(const RunResults& results);
+
+/// A class of points, and the percentage of them with the right verdict.
+struct ClassShare {
+  std::string name;
+  double percent = 0.0;
+};
+/// The class with the smallest share, of those with at least `kNamedClassPoints` points.
+/// @param kind of the columns: "rejection" of moving classes, "preservation" of static ones
+std::optional<ClassShare> worst_class(const MethodColumns& method, const std::string& kind);
 
 inline constexpr std::int64_t kNamedClassPoints = 100;
 

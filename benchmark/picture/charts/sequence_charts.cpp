@@ -72,12 +72,6 @@ struct RowPlot {
   }
 };
 
-const Interval* interval_of(const Score& score, const std::string& rate) {
-  if (!score.intervals) return nullptr;
-  const auto found = std::ranges::find(score.intervals->rates, rate, &Interval::name);
-  return found == score.intervals->rates.end() || !found->low || !found->high ? nullptr : &*found;
-}
-
 std::string rate_hint(const std::string& method, const RateSpec& rate, double value,
                       const Interval* interval) {
   std::string hint = method + ": " + rate.name + " " + rate_text(rate.name, value);
@@ -222,7 +216,7 @@ Chart interval_chart(const RunResults& results, const std::string& protocol,
   std::vector<Entry> entries = entries_of(results, sequence);
   std::erase_if(entries, [&](const Entry& entry) {
     const Score* score = entry.cell->score(protocol);
-    return score == nullptr || !rates.headline || !interval_of(*score, rates.headline->name);
+    return score == nullptr || !rates.headline || score->interval(rates.headline->name) == nullptr;
   });
   if (entries.empty()) return {};
   const auto headline = [&](const Entry& entry) {
@@ -243,7 +237,7 @@ Chart interval_chart(const RunResults& results, const std::string& protocol,
     for (const Entry& entry : entries) {
       const Score& score = *entry.cell->score(protocol);
       const auto value = score.rate(rate->name);
-      const Interval* interval = interval_of(score, rate->name);
+      const Interval* interval = score.interval(rate->name);
       if (value) {
         plot.values.push_back({static_cast<double>(plot.names.size()), entry.look, *value, interval,
                                rate_hint(entry.method, *rate, *value, interval)});
