@@ -106,10 +106,9 @@ class Run {
           located.scan = std::move(scan);
           find_terrain_cells(terrain_, parameters_, context, located);
           find_heights_and_cells(terrain_, maps_, parameters_, context, located);
-          thread_local std::unique_ptr<BeamImage> image;
-          image = std::make_unique<BeamImage>(scans_.sensor(), parameters_);
-          image->fill(located.scan);
-          image->find_extensions(located.extensions);
+          BeamImage image(scans_.sensor(), parameters_);
+          image.fill(located.scan);
+          image.find_extensions(located.extensions);
         },
         [&](LocatedScan& located, const RunContext& context) {
           add_to_maps(parameters_, context, located, maps_);

@@ -93,6 +93,7 @@ class BeamImage {
   /// The nearest return of a beam's neighbours, `rows` and `columns` a step, that is most like it.
   [[nodiscard]] const Beam* neighbour(int row, int column, int rows, int columns,
                                       const Beam& of) const;
+  /// Tests the beams of a window until one hits.
   void meet(const Window& window, Meeting& meeting) const;
   [[nodiscard]] bool is_open(float row, float column, float range) const;
   void find_farthest();

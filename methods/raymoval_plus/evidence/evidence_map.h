@@ -15,7 +15,6 @@ namespace raymoval::raymoval_plus_method {
 /// What a voxel or a point is taken for.
 enum class Verdict : std::uint8_t { kUndecided, kStatic, kDynamic };
 
-/// The numbers of scans that say something of a voxel.
 /// What the scans say of a voxel. A scan hits it if a beam ends there; it passes if beams cross the
 /// voxel and end well behind it, and none hits it.
 struct VoxelEvidence {

@@ -11,11 +11,6 @@
 
 namespace raymoval::raymoval_plus_method {
 
-/// Angles between neighbouring directions in which a sensor looks, radians; 0 = unknown.
-struct DirectionSteps {
-  float azimuth = 0.0F, elevation = 0.0F;
-};
-
 /// Step 2: what stands on the ground, and what was taken for ground, each in voxels of its own.
 /// Neither has a say about the other: the road stays under what was driven away from it, and what
 /// few beams saw of a vehicle goes although it was taken for the road.
@@ -28,7 +23,7 @@ struct EvidenceMaps {
   explicit EvidenceMaps(const Parameters& parameters, const SensorModel& sensor = {})
       : standing(parameters.voxel_size),
         ground(kGroundEdges * parameters.voxel_size, false),
-        steps{static_cast<float>(sensor.azimuth_step), static_cast<float>(sensor.elevation_step)} {}
+        elevation_step(static_cast<float>(sensor.elevation_step)) {}
 
   [[nodiscard]] std::array<EvidenceMap*, 2> both() { return {&standing, &ground}; }
   /// The numbers of their voxels.
@@ -37,7 +32,7 @@ struct EvidenceMaps {
   }
 
   EvidenceMap standing, ground;
-  DirectionSteps steps;  ///< Of the sensor.
+  float elevation_step;  ///< Between neighbouring rows of the sensor, radians; 0: unknown.
 };
 
 /// The cell of a ground voxel that a cell of the others lies in.

@@ -47,7 +47,7 @@ class LowPoints {
       : scan_(scan),
         ground_(maps.ground),
         low_(static_cast<float>(parameters.object_height)),
-        columns_wider_by_range_(kWiderByBeams * maps.steps.elevation /
+        columns_wider_by_range_(kWiderByBeams * maps.elevation_step /
                                 static_cast<float>(parameters.voxel_size)),
         farthest_aside_(std::sqrt(2.0F) * (kMostColumnsAside + 1) *
                         static_cast<float>(parameters.voxel_size)),

@@ -63,7 +63,7 @@ namespace {
 /// Step 8 with every column counted. 1 for each point that is dynamic afterwards.
 std::vector<int> slow_low_points(const Scene& scene, const Verdicts& before) {
   const LocatedScan& scan = scene.scan;
-  const float steps = scene.maps.steps.elevation;
+  const float steps = scene.maps.elevation_step;
   std::map<std::pair<int, int>, std::array<int, 2>> standing;  // Fixed and dynamic points.
   for (std::size_t k = 0; k < before.size(); ++k) {
     const float range = scan.scan.points[k].norm();
@@ -104,7 +104,7 @@ TEST_CASE("low points are those of a count over all columns") {
   for (int round = 0; round < 24; ++round) {
     const double away = 10.0 * (round % 3);
     Scene scene;
-    scene.maps.steps = {0.0035F, 0.035F};
+    scene.maps.elevation_step = 0.035F;
     Verdicts before;
     for (int i = 0; i < 1200; ++i) {
       const bool is_ground = random() % 3 == 0;
