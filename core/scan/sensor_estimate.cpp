@@ -76,7 +76,7 @@ struct Support {
   double weight = 0.0;  ///< The same, less for an axis near many directions.
 };
 
-/// @param every only each so many-th step is counted
+/// @param every 1 counts all steps, 2 each second one, and so on
 Support support_of(const Vector3d& axis, const std::vector<Step>& steps, std::size_t every = 1) {
   constexpr double kLevel = 0.2;  // Slope.
   // The columns of a dense sensor are level about horizontal axes, but these are near directions.

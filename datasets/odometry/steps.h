@@ -13,7 +13,7 @@
 
 namespace raymoval::odometry {
 
-/// The scans of one sensor, and what is needed to estimate their poses.
+/// The scans of one sensor whose poses are estimated, and how to read them.
 struct MovingScans {
   const ScanSource& scans;  ///< Their poses are not used.
   /// The time of each point, seconds from the time of the scan. Null: points have no times.

@@ -62,7 +62,7 @@ class UndecidedPoints {
   [[nodiscard]] bool has_turn(Number block) const { return block >= first_ && block < end_; }
   /// Whether undecided flagged points may be near a block.
   [[nodiscard]] bool is_near_flagged(Number block) const { return is_near_flagged_.test(block); }
-  /// Whether a kept point in this cell may be near a flagged one that is collected.
+  /// Whether a collected flagged point may be near a kept point in this cell.
   [[nodiscard]] bool is_wanted(const FineCell& cell, CellLattice::Cursor& cursor) const {
     return map_.flagged.any_near(cell, map_.blocks, cursor, first_, end_);
   }

@@ -223,7 +223,7 @@ std::vector<std::size_t> write_sequence_files(const fs::path& folder, const Scan
 /// Reads predictions/NNNNNN.label of every scan, which holds a 32-bit little-endian word for each
 /// point. Its lower 16 bits are 9 for a kept and 251 for a removed point. Gives the masks to
 /// `sink`.
-/// @throws MethodError that names the file, what is expected and what was found
+/// @throws MethodError with the file, the expected content and the content found
 void read_answers(const fs::path& folder, const std::vector<std::size_t>& points, RemovalSink& sink,
                   const RunContext& context) {
   if (points.empty()) return;

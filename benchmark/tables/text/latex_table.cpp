@@ -146,7 +146,7 @@ class LatexTable {
   }
 
  private:
-  /// Makes what is wider than the text, or higher than a page, smaller.
+  /// Shrinks a table that is wider than the text or higher than a page.
   static constexpr const char* kFit =
       "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n"
       "\\resizebox*{!}{\\ifdim\\totalheight>0.8\\textheight0.8\\textheight\\else\\totalheight\\fi}{"

@@ -90,8 +90,8 @@ std::string to_markdown(const TextTable& table);
 
 /// LaTeX that needs the packages booktabs and graphicx: everything escaped, best bold, second
 /// underlined, each block below a heading. A table that is too wide for a column of a two-column
-/// article becomes a `table*`, which spans both columns; what is wider than the text, or higher
-/// than a page, is made smaller. Long texts are broken into lines. The caption has the title and
+/// article becomes a `table*`, which spans both columns. A table that is wider than the text or
+/// higher than a page is shrunk. Long texts are broken into lines. The caption has the title and
 /// the data, and the label is made of the title: "tab:accuracy-by-protocol-erasor". Characters
 /// beyond Latin-1, which LaTeX does not support without packages, become question marks.
 std::string to_latex(const TextTable& table);
