@@ -35,6 +35,11 @@ class DenseBlocks {
   static VoxelIndex block_of(const VoxelIndex& cell) {
     return {cell.x() >> kBitsXY, cell.y() >> kBitsXY, cell.z() >> kBitsZ};
   }
+  /// The cell of this index within the block at the origin.
+  static VoxelIndex cell_at(std::size_t offset) {
+    const auto i = static_cast<int>(offset);
+    return {i & (kSideXY - 1), i >> kBitsXY & (kSideXY - 1), i >> (2 * kBitsXY)};
+  }
   /// The index of a cell within its block: x runs fastest, then y, then z.
   static std::size_t offset(const VoxelIndex& cell) {
     constexpr int kMaskXY = kSideXY - 1, kMaskZ = kSideZ - 1;

@@ -44,6 +44,12 @@ inline float arc_tangent(float y, float x) {
   return y < 0.0F ? -angle : angle;
 }
 
+/// The largest whole number that is not above a value. `std::floor` is a call without SSE4.
+inline int floor_of(float value) {
+  const int whole = static_cast<int>(value);
+  return whole - (value < static_cast<float>(whole) ? 1 : 0);
+}
+
 }  // namespace
 
 BeamImage::BeamImage(const SensorModel& sensor, const Parameters& parameters)
@@ -81,23 +87,24 @@ void BeamImage::fill(const Scan& scan) {
   R_sensor_world_ = R_world_sensor.transpose();
   position_ = scan.T_world_sensor.translation();
   first_.assign(size() + 1, 0);
-  bin_of_.resize(scan.size());
+  thread_local std::vector<std::int32_t> bin_of;
+  bin_of.resize(scan.size());
   for (std::size_t k = 0; k < scan.size(); ++k) {
     const Eigen::Vector3f& p = scan.points[k];
     const float flat = std::sqrt(p.x() * p.x() + p.y() * p.y());
-    const int row = static_cast<int>(std::floor(elevation_bin(p, flat)));
+    const int row = floor_of(elevation_bin(p, flat));
     const int column = std::clamp(static_cast<int>(azimuth_bin(p)), 0, columns_ - 1);
     const bool is_beam = row >= 0 && row < rows_ && p.squaredNorm() >= nearest_ * nearest_;
-    bin_of_[k] = is_beam ? row * columns_ + column : -1;
-    if (is_beam) ++first_[static_cast<std::size_t>(bin_of_[k]) + 1];
+    bin_of[k] = is_beam ? row * columns_ + column : -1;
+    if (is_beam) ++first_[static_cast<std::size_t>(bin_of[k]) + 1];
   }
   for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
   beams_.resize(first_.back());
   for (std::size_t k = scan.size(); k-- > 0;) {
-    if (bin_of_[k] < 0) continue;
+    if (bin_of[k] < 0) continue;
     const float range = scan.points[k].norm();
     const Eigen::Vector3f direction = R_world_sensor * scan.points[k] / range;
-    beams_[--first_[static_cast<std::size_t>(bin_of_[k]) + 1]] = {
+    beams_[--first_[static_cast<std::size_t>(bin_of[k]) + 1]] = {
         direction.x(), direction.y(), direction.z(), range, static_cast<std::uint32_t>(k)};
   }
   // Now `first_[b + 1]` is the first beam of bin b.
@@ -177,7 +184,7 @@ bool BeamImage::is_hidden(const Window& window, float range) const {
 }
 
 bool BeamImage::is_open(float row, float column, float range) const {
-  const int c0 = static_cast<int>(std::floor(column)), r0 = static_cast<int>(std::floor(row));
+  const int c0 = floor_of(column), r0 = floor_of(row);
   bool above = false, below = false;
   for (int r = std::max(r0 - 2, 0); r <= std::min(r0 + 2, rows_ - 1); ++r) {
     for (int c = c0 - 1; c <= c0 + 1; ++c) {
@@ -197,14 +204,13 @@ BeamImage::Window BeamImage::window_around(const Eigen::Vector3f& mean, float ra
   const float flat = std::sqrt(s.x() * s.x() + s.y() * s.y());
   const float half = kWindow * radius, high = half / range / elevation_step_;
   const float row = elevation_bin(s, flat), column = azimuth_bin(s);
-  const auto whole = [](float bin) { return static_cast<int>(std::floor(bin)); };
-  const int row0 = std::max(whole(row - high), 0);
-  const int row1 = std::min(whole(row + high), rows_ - 1);
+  const int row0 = std::max(floor_of(row - high), 0);
+  const int row1 = std::min(floor_of(row + high), rows_ - 1);
   // Around the axis a voxel is in all columns.
   if (half >= 0.5F * flat) return {row, column, row0, row1, 0, columns_ - 1};
   // The arc sine of up to a half is at most 1.05 of it.
   const float wide = 1.05F * half / flat / azimuth_step_;
-  return {row, column, row0, row1, whole(column - wide), whole(column + wide)};
+  return {row, column, row0, row1, floor_of(column - wide), floor_of(column + wide)};
 }
 
 /// What the beams of a window say of a voxel: whether any comes near it, and whether any passes
@@ -214,7 +220,8 @@ struct BeamImage::Meeting {
   const Eigen::Vector3f mean, weighted;  ///< From the sensor, and times the inverse covariance.
   const float square, away;              ///< Of the distance, square metres and squared deviations.
   const float plane;  ///< How far the plane of a flat voxel is from the sensor, metres.
-  const float hit, pass, nearest;
+  const float hit, pass;
+  const float nearest, farthest;  ///< Ranges between which a beam may hit, metres.
   bool is_hit = false, is_passed = false, is_crossed = false;
 
   [[nodiscard]] bool ends_behind_plane(const Beam& b) const {
@@ -228,7 +235,8 @@ struct BeamImage::Meeting {
     const float widest = square - kMeets * shape.radius * shape.radius - kSquareRounding * square;
     for (const Beam& b : beams) {
       const float ahead = b.x * mean.x() + b.y * mean.y() + b.z * mean.z();
-      if (b.range < nearest || ahead * ahead < widest) continue;
+      if (b.range < nearest || (is_passed && b.range > farthest)) continue;
+      if (ahead * ahead < widest) continue;
       const float along = b.x * weighted.x() + b.y * weighted.y() + b.z * weighted.z();
       const float norm =
           shape.xx * b.x * b.x + shape.yy * b.y * b.y + shape.zz * b.z * b.z +
@@ -282,7 +290,11 @@ void BeamImage::observe(std::span<const float> places, std::span<const VoxelShap
                             shape.xy * m.x() + shape.yy * m.y() + shape.yz * m.z(),
                             shape.xz * m.x() + shape.yz * m.y() + shape.zz * m.z());
     const float plane = shape.nx * m.x() + shape.ny * m.y() + shape.nz * m.z();
-    Meeting meeting{shape, m, w, square, w.dot(m), plane, hit, pass_ + slope, nearest};
+    Meeting meeting{shape,    m,
+                    w,        square,
+                    w.dot(m), plane,
+                    hit,      pass_ + slope,
+                    nearest,  range + hit + kWindow * shape.radius};
     meet(window, meeting);
     const auto say = [&](Observation observation) {
       observed.push_back({static_cast<std::uint32_t>(v), observation, range});

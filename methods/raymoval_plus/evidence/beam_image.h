@@ -106,7 +106,6 @@ class BeamImage {
   std::vector<std::uint32_t> first_;  ///< Of each bin in `beams_`, and one more.
   std::vector<Beam> beams_;
   std::vector<float> farthest_;  ///< Of each block of 8 x 8 bins.
-  std::vector<std::int32_t> bin_of_;
 };
 
 }  // namespace raymoval::raymoval_plus_method

@@ -49,10 +49,10 @@ void add_evidence(std::span<const PosedImage> images, const Parameters& paramete
     for (const auto& [image, position, scan] : images) {
       image->observe(tile.places, tile.shapes, tile.origin, observed);
       for (const ObservedVoxel& voxel : observed) {
-        VoxelEvidence& evidence = tile.evidence[voxel.place];
+        const std::uint32_t number = tile.voxels[voxel.place];
+        VoxelEvidence& evidence = map.evidence(number);
         add_observation(voxel.observation, scan, evidence);
-        if (when == WhenToDecide::kNow)
-          map.set_decision(tile.voxels[voxel.place], decide(evidence, parameters));
+        if (when == WhenToDecide::kNow) map.set_decision(number, decide(evidence, parameters));
       }
     }
   });

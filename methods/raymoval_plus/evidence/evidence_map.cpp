@@ -57,6 +57,8 @@ void EvidenceMap::add_sample(std::uint32_t voxel, int x, int y, int z) {
 }
 
 std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot) {
+  occupied_.resize(blocks_.block_count(), 0);
+  occupied_[slot / Blocks::kCells] |= std::uint64_t{1} << slot % Blocks::kCells;
   dynamic_.resize(blocks_.block_count(), 0);
   is_dynamic_.resize(blocks_.block_count(), 0);
   decisions_.resize(blocks_.block_count() * Blocks::kCells, Verdict::kUndecided);
@@ -67,7 +69,7 @@ std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot
   if (fresh) {
     const double side = (1 << kTileShift) * size_;
     // The height of the tile's first voxel keeps the offsets of all others small.
-    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}, {}, {}});
+    tiles_.push_back({{at.x() * side, at.y() * side, index.z() * size_}, {}, {}, {}});
   }
   Tile& tile = tiles_[found->second];
   const auto number = static_cast<std::uint32_t>(voxels_.size());
@@ -77,7 +79,7 @@ std::uint32_t EvidenceMap::add_voxel(const VoxelIndex& index, std::uint32_t slot
   tile.voxels.push_back(number);
   tile.places.resize(tile.places.size() + 3);
   tile.shapes.emplace_back();
-  tile.evidence.emplace_back();
+  evidence_.emplace_back();
   return number;
 }
 

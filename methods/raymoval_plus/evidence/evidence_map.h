@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -110,7 +111,6 @@ class EvidenceMap {
     std::vector<std::uint32_t> voxels;  ///< In order of their first points.
     std::vector<float> places;          ///< x y z of each voxel's mean from the origin, metres.
     std::vector<VoxelShape> shapes;     ///< Of each voxel's points.
-    std::vector<VoxelEvidence> evidence;
   };
   /// Writes the means of the voxels that points were added to into `Tile::places`, and the spans.
   void update_means();
@@ -120,12 +120,8 @@ class EvidenceMap {
                                                       double range) const;
   [[nodiscard]] Tile& tile(std::uint32_t number) { return tiles_[number]; }
 
-  [[nodiscard]] const VoxelEvidence& evidence(std::size_t voxel) const {
-    return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
-  }
-  [[nodiscard]] VoxelEvidence& evidence(std::size_t voxel) {
-    return tiles_[voxels_[voxel].tile].evidence[voxels_[voxel].place];
-  }
+  [[nodiscard]] const VoxelEvidence& evidence(std::size_t voxel) const { return evidence_[voxel]; }
+  [[nodiscard]] VoxelEvidence& evidence(std::size_t voxel) { return evidence_[voxel]; }
   /// The decision from the voxel's own evidence. Threads may set voxels of different blocks.
   [[nodiscard]] Verdict decision(std::size_t voxel) const { return decisions_[slot(voxel)]; }
   void set_decision(std::size_t voxel, Verdict decision);
@@ -134,6 +130,8 @@ class EvidenceMap {
   void set_verdict_in(std::size_t slot, Verdict verdict) { verdicts_[slot] = verdict; }
 
   [[nodiscard]] const Blocks& blocks() const { return blocks_; }
+  /// Which cells of a block have a voxel: bit i for cell i.
+  [[nodiscard]] std::uint64_t occupied(std::uint32_t block) const { return occupied_[block]; }
   [[nodiscard]] std::uint32_t block_of(std::size_t voxel) const {
     return slot(voxel) / static_cast<std::uint32_t>(Blocks::kCells);
   }
@@ -175,13 +173,16 @@ class EvidenceMap {
   double size_, inverse_;
   bool knows_planes_;
   Blocks blocks_;
-  std::vector<std::uint8_t> dynamic_;  ///< By block: see `dynamic_in`.
+  static_assert(Blocks::kCells == 64);
+  std::vector<std::uint64_t> occupied_;  ///< By block, see `occupied`.
+  std::vector<std::uint8_t> dynamic_;    ///< By block: see `dynamic_in`.
   /// By block: 1 if a voxel of it is dynamic, and whether it was at the last `update_surroundings`.
   std::vector<std::uint8_t> is_dynamic_, was_dynamic_;
   std::vector<std::uint16_t> dynamic_around_;  ///< By block: how many around it were dynamic then.
   int reach_ = -1;                             ///< Of the last `update_surroundings`.
   std::vector<Verdict> decisions_, verdicts_;  ///< By slot.
   std::vector<Voxel> voxels_;
+  std::vector<VoxelEvidence> evidence_;
   std::vector<Sums> sums_;
   VoxelMap<std::uint32_t> tile_numbers_;
   std::vector<Tile> tiles_;
@@ -193,8 +194,9 @@ class EvidenceMap {
 template <class Visit>
 void for_voxels(const EvidenceMap& map, std::uint32_t block, Visit&& visit) {
   const std::uint32_t* const cells = map.blocks().cells(block);
-  for (std::size_t i = 0; i < EvidenceMap::Blocks::kCells; ++i) {
-    if (cells[i] != EvidenceMap::kNone) visit(cells[i], i);
+  for (std::uint64_t left = map.occupied(block); left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    visit(cells[i], i);
   }
 }
 

@@ -66,18 +66,31 @@ Surroundings::Surroundings(double voxel_size)
 }
 
 void Surroundings::look_at(std::uint32_t block, const EvidenceMap& map) {
-  if (std::exchange(block_, block) == block) return;
+  const VoxelIndex region = region_of(map.blocks().block_index(block));
+  if (!std::exchange(is_empty_, false) && region == region_) return;
+  region_ = region;
   std::fill(presences_.begin(), presences_.end(), Presence{});
-  corner_ = map.blocks().block_index(block) * kSide - VoxelIndex::Constant(reach_);
-  map.blocks().for_blocks_around(block, (reach_ + kSide - 1) / kSide, [&](std::uint32_t other) {
-    for_voxels(map, other, [&](std::uint32_t voxel, std::size_t) {
-      const VoxelIndex cell = map.index(voxel) - corner_;
-      if ((cell.array() < 0).any() || (cell.array() >= side_).any()) return;
-      const VoxelEvidence& evidence = map.evidence(voxel);
-      if (evidence.hits == 0) return;
-      presences_[place(cell)] = {evidence.first_hit, evidence.last_hit};
-      voxels_[place(cell)] = voxel;
-    });
+  corner_ = region * kSide - VoxelIndex::Constant(reach_);
+  const VoxelIndex low = EvidenceMap::Blocks::block_of(corner_);
+  const VoxelIndex high = EvidenceMap::Blocks::block_of(corner_.array() + side_ - 1);
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) read_block({x, y, z}, map);
+    }
+  }
+}
+
+void Surroundings::read_block(const VoxelIndex& index, const EvidenceMap& map) {
+  const std::uint32_t block = map.blocks().block(index);
+  if (block == EvidenceMap::kNone) return;
+  const VoxelIndex corner = index * kBlockSide - corner_;
+  for_voxels(map, block, [&](std::uint32_t voxel, std::size_t i) {
+    const VoxelIndex cell = corner + EvidenceMap::Blocks::cell_at(i);
+    if ((cell.array() < 0).any() || (cell.array() >= side_).any()) return;
+    const VoxelEvidence& evidence = map.evidence(voxel);
+    if (evidence.hits == 0) return;
+    presences_[place(cell)] = {evidence.first_hit, evidence.last_hit};
+    voxels_[place(cell)] = voxel;
   });
 }
 
@@ -111,9 +124,15 @@ float Surroundings::passes_of_thing(const VoxelIndex& cell, const EvidenceMap& m
   return passes / static_cast<float>(std::max(voxels, 1));
 }
 
-void find_passes_outside(const std::vector<std::uint32_t>& blocks, const RunContext& context,
+void find_passes_outside(std::vector<std::uint32_t> blocks, const RunContext& context,
                          EvidenceMap& map) {
   const StageScope timed(context.times, "passes outside");
+  // A region is read once, whatever the order of its blocks.
+  const auto region = [&](std::uint32_t block) {
+    return voxel_key(Surroundings::region_of(map.blocks().block_index(block)));
+  };
+  std::sort(blocks.begin(), blocks.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return region(a) < region(b); });
   parallel_chunks(
       context.threads, blocks.size(), kThingBlocksATask, [&](std::size_t begin, std::size_t end) {
         Surroundings around(map.voxel_size());

@@ -19,8 +19,8 @@ std::vector<float> highest_rises(const std::vector<float>& rise_x, const std::ve
                                  double cell, double slope);
 
 /// The ground bounded by ground farther away: what few beams find of a vehicle, with metres to the
-/// next ring on the ground, is no ground. Columns without ground stay without. The result depends
-/// on `kFarReach` columns to either side.
+/// next ring on the ground, is no ground. Columns without ground stay without. The result is that
+/// of the columns at least `kFarReach` inside of the square, row by row.
 /// @param ground heights of a square of columns, row by row, metres; +infinity where none is known
 /// @param side columns in a row
 /// @param rises from `highest_rises`

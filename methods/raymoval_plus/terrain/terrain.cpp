@@ -184,12 +184,13 @@ Terrain::Window Terrain::without_pits_in(const VoxelIndex& tile) const {
     ground =
         without_pits(ground, kTile + 2 * kPitMargin, static_cast<float>(parameters_.terrain_drop));
   }
-  return middle_of(ground, kPitMargin);
+  return middle_of(ground, kTile + 2 * kPitMargin, kPitMargin);
 }
 
 Terrain::Window Terrain::land_in(const VoxelIndex& tile, int axis) const {
   const Window ground = around_tile(own_ground_, tile, kLandMargin);
-  return middle_of(land_rise(ground, kTile + 2 * kLandMargin, axis), kLandMargin);
+  constexpr int kSide = kTile + 2 * kLandMargin;
+  return middle_of(land_rise(ground, kSide, axis), kSide, kLandMargin);
 }
 
 int Terrain::bound_margin() const {
@@ -208,13 +209,12 @@ std::vector<GroundPlane> Terrain::ground_in(const VoxelIndex& tile) const {
   for (std::size_t i = 0; i < planes.size(); ++i) {
     planes[i] = steep_part(rise_x[i], rise_y[i], parameters_.terrain_cell);
   }
-  bound_by_slope(ground, margin, planes);
+  bound_by_slope(ground, planes);
   return planes;
 }
 
-void Terrain::bound_by_slope(const Window& ground, int margin,
-                             std::vector<GroundPlane>& planes) const {
-  const int side = kTile + 2 * margin;
+void Terrain::bound_by_slope(const Window& ground, std::vector<GroundPlane>& planes) const {
+  const int side = kTile + 2 * reach_;
   // Columns without points of their own take the ground from beside them.
   Window lowest(planes.size(), kNoGround);
   for (int dy = -reach_; dy <= reach_; ++dy) {
@@ -224,7 +224,7 @@ void Terrain::bound_by_slope(const Window& ground, int margin,
       const auto rise = static_cast<float>(parameters_.terrain_slope * distance);
       const auto x_back = static_cast<float>(-dx), y_back = static_cast<float>(-dy);
       for (int y = 0; y < kTile; ++y) {
-        const float* const from = ground.data() + (y + margin + dy) * side + margin + dx;
+        const float* const from = ground.data() + (y + reach_ + dy) * side + reach_ + dx;
         float* const to = lowest.data() + y * kTile;
         const GroundPlane* const plane = planes.data() + y * kTile;
         for (int x = 0; x < kTile; ++x) {

@@ -72,7 +72,7 @@ class Terrain {
   [[nodiscard]] std::vector<GroundPlane> ground_in(const VoxelIndex& tile) const;
   /// Sets the heights of a tile's planes to what the slope between them and the ground around
   /// allows.
-  void bound_by_slope(const Window& ground, int margin, std::vector<GroundPlane>& planes) const;
+  void bound_by_slope(const Window& ground, std::vector<GroundPlane>& planes) const;
   void update_low_quantiles(const RunContext& context);
   /// Those tiles to find anew that have columns at most `margin` columns from what has changed: of
   /// those that ever had points in them or near them, and `fresh` ones, of which nothing was found.

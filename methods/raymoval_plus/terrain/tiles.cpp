@@ -47,13 +47,11 @@ std::vector<float> around_tile(const TileHeights& heights, const VoxelIndex& til
   return around;
 }
 
-std::vector<float> middle_of(const std::vector<float>& around, int margin) {
-  const int side = kTile + 2 * margin;
+std::vector<float> middle_of(const std::vector<float>& square, int side, int margin) {
   std::vector<float> middle;
-  middle.reserve(std::size_t{kTile} * kTile);
-  for (int y = margin; y < margin + kTile; ++y) {
-    const float* const row = around.data() + y * side + margin;
-    middle.insert(middle.end(), row, row + kTile);
+  for (int y = margin; y < side - margin; ++y) {
+    const float* const row = square.data() + y * side;
+    middle.insert(middle.end(), row + margin, row + side - margin);
   }
   return middle;
 }

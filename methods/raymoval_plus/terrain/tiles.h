@@ -29,7 +29,8 @@ VoxelSet tiles_near(const std::vector<ColumnBox>& boxes, int margin);
 /// The heights of a tile's columns and of `margin` columns to either side, row by row. Where there
 /// is no tile they are `kNoGround`.
 std::vector<float> around_tile(const TileHeights& heights, const VoxelIndex& tile, int margin);
-/// The heights of the tile's own columns, of these.
-std::vector<float> middle_of(const std::vector<float>& around, int margin);
+/// The columns at least `margin` columns inside of a square, row by row. @param side columns in a
+/// row
+std::vector<float> middle_of(const std::vector<float>& square, int side, int margin);
 
 }  // namespace raymoval::raymoval_plus_method

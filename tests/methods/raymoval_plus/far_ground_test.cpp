@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods/raymoval_plus/terrain/far_ground.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -18,10 +19,21 @@ std::size_t at(int x, int y, int side) {
   return static_cast<std::size_t>(y * side + x);
 }
 
+/// Values of a square with `kFarReach` columns more on each side, which bound nothing.
+std::vector<float> padded(const std::vector<float>& values, int side) {
+  const int wide = side + 2 * kFarReach;
+  std::vector<float> all(static_cast<std::size_t>(wide * wide), kNowhere);
+  for (int y = 0; y < side; ++y) {
+    std::copy_n(values.data() + y * side, side, all.data() + (y + kFarReach) * wide + kFarReach);
+  }
+  return all;
+}
+
+/// The ground of a square without ground around it, bounded.
 std::vector<float> bounded(const std::vector<float>& ground, int side) {
   const std::vector<float> rises =
       highest_rises(land_rise(ground, side, 0), land_rise(ground, side, 1), kCell, 0.1);
-  return bounded_from_afar(ground, rises, side);
+  return bounded_from_afar(padded(ground, side), padded(rises, side), side + 2 * kFarReach);
 }
 
 }  // namespace
