@@ -18,6 +18,8 @@ struct MethodVariant {
   std::string sentence = "";
   bool online = false;           ///< The mask of scan t uses scans up to t, or up to a delay later.
   Configuration overrides = {};  ///< Values that differ from the method's defaults.
+  /// The data on which its rules or numbers were chosen, for footnotes of tables; empty: not known.
+  std::string developed_on = {};
   bool is_available = true;  ///< False if this build lacks a library for it, as `sentence` says.
 };
 

@@ -173,7 +173,7 @@ std::string methods_html(const RunResults& results) {
       rate_units_text(rates) +
       " Bold: best, underlined: second; controls are listed below and not ranked. (4/5): the mean "
       "is over the 4 of 5 sequences that have a value. Click a heading to sort.");
-  add_change_notes(results, table);
+  add_method_notes(results, table);
   return choice_html(results) + html_table(table);
 }
 
@@ -200,7 +200,7 @@ std::string accuracy_html(const RunResults& results, const std::vector<OutsideCo
 std::string losses_html(const RunResults& results) {
   std::string html;
   for (TextTable& table : loss_tables(results)) {
-    add_change_notes(results, table);
+    add_method_notes(results, table);
     html += html_heat_table(table);
   }
   return html;

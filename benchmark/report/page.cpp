@@ -10,6 +10,7 @@
 #include "benchmark/report/scene.h"
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/suite/suite.h"
+#include "benchmark/tables/table_options.h"
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
@@ -28,10 +29,15 @@ struct Points {
   std::vector<std::string> unopened;
 };
 
+/// The cells whose points are shown; those of the best method come first.
 std::vector<SceneCell> scene_cells(const KeptRun& run, const Sequence& sequence,
                                    std::vector<std::string>& warnings) {
+  std::vector<const KeptCell*> all = run.cells_of(sequence.name);
+  const std::vector<std::string> order = methods_best_first(run.results());
+  std::ranges::stable_sort(
+      all, {}, [&](const KeptCell* cell) { return std::ranges::find(order, cell->name); });
   std::vector<SceneCell> cells;
-  for (const KeptCell* kept : run.cells_of(sequence.name)) {
+  for (const KeptCell* kept : all) {
     if (!kept->has_removals()) continue;
     try {
       cells.push_back({kept->name, kept->control, run.masks(*kept, sequence), kept->removals,

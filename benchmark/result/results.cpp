@@ -7,6 +7,7 @@
 #include "benchmark/suite/cell_selection.h"
 #include "core/text.h"
 #include "eval/protocol_registry.h"
+#include "methods/registry.h"
 
 namespace raymoval {
 namespace {
@@ -86,6 +87,19 @@ void add_changed(const SuiteMethodRecord& method, RunResults& results) {
     if (known.name == changed.name) return;
   }
   results.changed.push_back(std::move(changed));
+}
+
+/// Adds the method if it is known on which data it was developed; points of a sweep add it once.
+void add_developed(const SuiteMethodRecord& method, RunResults& results) {
+  const std::string name = method.sweep ? method.sweep->of : method.name;
+  for (const auto& entry : MethodRegistry::built_in().entries()) {
+    for (const MethodVariant& variant : entry->variants) {
+      if (variant.developed_on.empty() || entry->name + ":" + variant.name != method.method)
+        continue;
+      std::vector<std::string>& names = results.developed_on[variant.developed_on];
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
 }
 
 std::string csv_text(const std::string& text) {
@@ -223,6 +237,7 @@ RunResults shown_results(ResultsRecord results) {
   }
   for (const SuiteMethodRecord& method : results.run.methods) {
     add_changed(method, shown);
+    add_developed(method, shown);
     if (!method.sweep) continue;
     SweptCell swept{method.name, method.sweep->of, {}};
     for (const auto& [key, value] : method.sweep->values) {

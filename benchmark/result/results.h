@@ -82,6 +82,8 @@ struct RunResults {
   std::vector<MethodTimes> times;              ///< Controls are left out.
   std::vector<SweptCell> sweeps;
   std::vector<ChangedMethod> changed;
+  /// Names in the suite of methods that were developed on data, by the words for the data.
+  std::map<std::string, std::vector<std::string>> developed_on = {};
   std::vector<std::string> missing;  ///< "sequence / method" of cells that were not run.
   std::vector<std::string> control_problems;
   /// Names in the registry of the protocols that the suite calls otherwise, by their names in it.

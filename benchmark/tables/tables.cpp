@@ -197,9 +197,15 @@ std::vector<std::string> latex_kinds(const RunResults& results) {
   return {only_swept && !results.sweeps.empty() ? "sweeps" : "accuracy"};
 }
 
-void add_change_notes(const RunResults& results, TextTable& table) {
+void add_method_notes(const RunResults& results, TextTable& table) {
   for (const ChangedMethod& changed : results.changed) {
     if (shows(table, changed.name)) table.notes.push_back(changed.note());
+  }
+  for (const auto& [data, methods] : results.developed_on) {
+    std::vector<std::string> shown;
+    std::ranges::copy_if(methods, std::back_inserter(shown),
+                         [&](const std::string& method) { return shows(table, method); });
+    if (!shown.empty()) table.notes.push_back("Developed on " + data + ": " + join(shown) + ".");
   }
 }
 
@@ -210,7 +216,7 @@ std::vector<TextTable> make_tables(const RunResults& results, const TableOptions
     if (!is_among(options.what.empty() ? kinds_shown_by_default() : options.what, kind)) continue;
     for (TextTable& table : make(results, options)) {
       if (kind != "published") table.data = data;
-      add_change_notes(results, table);
+      add_method_notes(results, table);
       tables.push_back(std::move(table));
     }
   }

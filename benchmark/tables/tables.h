@@ -21,8 +21,9 @@ std::vector<std::string> table_kinds();
 /// The default tables of a document: the accuracy, or the sweeps if all methods are swept.
 std::vector<std::string> latex_kinds(const RunResults& results);
 
-/// Adds notes below a table on how its methods differ from their variants.
-void add_change_notes(const RunResults& results, TextTable& table);
+/// Adds notes below a table on how its methods differ from their variants, and on which data they
+/// were developed.
+void add_method_notes(const RunResults& results, TextTable& table);
 
 std::string tables_markdown(const RunResults& results, const std::vector<TextTable>& tables);
 std::string tables_latex(const std::vector<TextTable>& tables);

@@ -90,7 +90,8 @@ MethodEntry beautymap_entry() {
        .overrides = sound},
       {.name = "wide",
        .sentence = "Without the quirks, and comparing up to 50 m instead of 20.",
-       .overrides = wide},
+       .overrides = wide,
+       .developed_on = "KITTI raw drive 0005"},
   };
   entry.bind(beautymap_method::make_table(), beautymap_method::make_beautymap);
   return entry;

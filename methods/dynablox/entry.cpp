@@ -104,7 +104,8 @@ MethodEntry dynablox_entry() {
        .overrides = {{"offline", true}}},
       {.name = "offline-wide",
        .sentence = "Both.",
-       .overrides = {{"max_range", 80.0}, {"offline", true}}},
+       .overrides = {{"max_range", 80.0}, {"offline", true}},
+       .developed_on = "KITTI raw drive 0005"},
   };
   entry.bind(dynablox_method::make_table(), dynablox_method::make_dynablox);
   return entry;

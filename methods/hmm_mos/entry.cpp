@@ -108,7 +108,8 @@ MethodEntry hmm_mos_entry() {
       {.name = "offline",
        .sentence = "Ours: voxel positions are centres, and points whose voxel was last known to be "
                    "free are removed.",
-       .overrides = {{"public_lattice", false}, {"offline", true}}},
+       .overrides = {{"public_lattice", false}, {"offline", true}},
+       .developed_on = "KITTI raw drive 0005"},
   };
   entry.bind(hmm_mos_method::make_table(), hmm_mos_method::make_hmm_mos);
   return entry;

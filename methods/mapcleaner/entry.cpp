@@ -181,7 +181,8 @@ MethodEntry mapcleaner_entry() {
       {.name = "sound",
        .sentence = "Without the quirks of the public program: height, axes and field of view are "
                    "the sensor's.",
-       .overrides = sound},
+       .overrides = sound,
+       .developed_on = "KITTI raw drive 0005"},
   };
   entry.bind(mapcleaner_method::make_table(), mapcleaner_method::make_mapcleaner);
   return entry;

@@ -52,6 +52,9 @@ MethodEntry raymoval_plus_entry() {
            "One pass as the scans come, every point answered by the map as it is in the end.",
        .overrides = {{"one_pass", true}}},
   };
+  for (MethodVariant& variant : entry.variants) {
+    variant.developed_on = "KITTI raw drive 0005 and simulated scenes with development seeds";
+  }
   entry.bind(raymoval_plus_method::parameter_table(), raymoval_plus_method::make_raymoval_plus);
   return entry;
 }

@@ -279,6 +279,23 @@ TEST_CASE("A sort puts the best first in all that is listed by method") {
   CHECK(sorted("none").methods == results.methods);
 }
 
+TEST_CASE("Tables say below them on which data a method was developed") {
+  RunResults results = two_by_two();
+  results.developed_on = {{"a drive", {"x", "y_1"}}, {"scenes", {"z"}}};
+  CHECK(make_tables(results)[0].notes == std::vector<std::string>{"Developed on a drive: x, y_1."});
+  // The program knows it of its own method, whatever its name in the suite.
+  ResultsRecord record;
+  for (const char* method : {"raymoval:offline", "raymoval_plus:online"}) {
+    SuiteMethodRecord chosen;
+    chosen.name = std::string("my ") + method;
+    chosen.method = method;
+    record.run.methods.push_back(std::move(chosen));
+  }
+  const auto known = shown_results(record).developed_on;
+  REQUIRE(known.size() == 1);
+  CHECK(known.begin()->second == std::vector<std::string>{"my raymoval_plus:online"});
+}
+
 TEST_CASE("Tables say below them how a method differs from its variant") {
   RunResults results = two_by_two();
   results.changed = {{"x", "size = 2 (default 1)"}};
