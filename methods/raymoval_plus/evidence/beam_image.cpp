@@ -100,12 +100,14 @@ void BeamImage::fill(const Scan& scan) {
   }
   for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
   beams_.resize(first_.back());
+  point_of_.resize(beams_.size());
   for (std::size_t k = scan.size(); k-- > 0;) {
     if (bin_of[k] < 0) continue;
     const float range = scan.points[k].norm();
     const Eigen::Vector3f direction = R_world_sensor * scan.points[k] / range;
-    beams_[--first_[static_cast<std::size_t>(bin_of[k]) + 1]] = {
-        direction.x(), direction.y(), direction.z(), range, static_cast<std::uint32_t>(k)};
+    const std::uint32_t place = --first_[static_cast<std::size_t>(bin_of[k]) + 1];
+    beams_[place] = {direction.x(), direction.y(), direction.z(), range};
+    point_of_[place] = static_cast<std::uint32_t>(k);
   }
   // Now `first_[b + 1]` is the first beam of bin b.
   for (std::size_t b = 0; b + 1 < first_.size(); ++b) first_[b] = first_[b + 1];
@@ -152,7 +154,7 @@ void BeamImage::find_extensions(std::vector<Extension>& extensions) const {
         const float aside = std::sqrt(std::max(offset.squaredNorm() - deeper * deeper, 0.0F));
         const bool goes_on = aside >= kLeastGap && aside <= kMostGap &&
                              deeper <= std::min(aside + kDeeper, kMostDeeper);
-        if (goes_on) extensions.push_back({beam.point, offset / 3.0F});
+        if (goes_on) extensions.push_back({point_of_[&beam - beams_.data()], offset / 3.0F});
       }
     }
   }

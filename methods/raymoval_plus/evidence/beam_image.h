@@ -58,6 +58,8 @@ class BeamImage {
   /// Replaces `extensions` with those of all points whose neighbouring beams are far apart and end
   /// at about the same range, in order of points.
   void find_extensions(std::vector<Extension>& extensions) const;
+  /// Frees the memory that only `find_extensions` needs.
+  void forget_points() { point_of_ = {}; }
   /// The number of bins.
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_);
@@ -67,7 +69,6 @@ class BeamImage {
   struct Beam {
     float x, y, z;  ///< Direction, axes of the world.
     float range;    ///< Metres.
-    std::uint32_t point;
   };
   [[nodiscard]] int wrapped(int column) const {
     return column < 0 ? column + columns_ : column >= columns_ ? column - columns_ : column;
@@ -105,7 +106,8 @@ class BeamImage {
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> first_;  ///< Of each bin in `beams_`, and one more.
   std::vector<Beam> beams_;
-  std::vector<float> farthest_;  ///< Of each block of 8 x 8 bins.
+  std::vector<std::uint32_t> point_of_;  ///< Of each beam, its number in the scan.
+  std::vector<float> farthest_;          ///< Of each block of 8 x 8 bins.
 };
 
 }  // namespace raymoval::raymoval_plus_method

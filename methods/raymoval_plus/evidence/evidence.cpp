@@ -95,6 +95,7 @@ void EarlierScans::add_evidence(std::size_t first_voxel, const Eigen::Vector3d& 
 
 void EarlierScans::keep(BeamImage&& image, std::size_t scan) {
   if (parameters_.history_scans == 0) return;
+  image.forget_points();
   if (kept_.size() < static_cast<std::size_t>(parameters_.history_scans)) {
     kept_.push_back({std::move(image), scan});
     return;
