@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 
@@ -55,6 +56,11 @@ class Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled before the end", ExitCode::kWorse) {}
 };
+
+/// @param cancel becomes true when the work shall end; null: it never does @throws Cancelled
+inline void throw_if_cancelled(const std::atomic<bool>* cancel) {
+  if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled();
+}
 
 /// A broken invariant inside raymoval: a fault of the program and never of its user.
 class InternalError : public Error {

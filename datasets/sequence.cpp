@@ -4,8 +4,6 @@
 #include "core/scan/local_frame.h"
 #include "datasets/deskew/deskew.h"
 #include "datasets/ego/ego_region.h"
-#include "datasets/ego/sensor_origin.h"
-#include "datasets/registration/reposed_source.h"
 #include "datasets/world_axes/up_direction.h"
 
 namespace raymoval {
@@ -74,12 +72,11 @@ const EgoFreeSource* ego_free_source(const Sequence& sequence) {
 }
 
 const ScanSource& stored_source(const Sequence& sequence) {
-  const EgoFreeSource* without_ego = ego_free_source(sequence);
-  const ScanSource& source = without_ego ? without_ego->whole() : *skewed_source(sequence);
-  const auto* moved = dynamic_cast<const SensorOriginSource*>(&source);
-  const ScanSource& posed = moved != nullptr ? moved->whole() : source;
-  const auto* reposed = dynamic_cast<const ReposedSource*>(&posed);
-  return reposed != nullptr ? reposed->whole() : posed;
+  const ScanSource* source = &sequence.as_opened();
+  while (const auto* derived = dynamic_cast<const DerivedSource*>(source)) {
+    source = &derived->whole();
+  }
+  return *source;
 }
 
 const FileScanSource* file_source(const Sequence& sequence) {

@@ -36,7 +36,7 @@ class OrderedPass {
   void work() {
     for (std::size_t scan = next(); scan < scans_; scan = next()) {
       try {
-        if (input_.cancel != nullptr && input_.cancel->load()) throw Cancelled();
+        throw_if_cancelled(input_.cancel);
         read_(scan, scan % ready_.size());
         if (input_.progress != nullptr) input_.progress->advance();
         process_ready(scan);

@@ -60,9 +60,7 @@ struct RunContext {
   EvidenceSink* evidence = nullptr;  ///< For a method whose entry has a `Calibration`.
 
   /// @throws Cancelled if the run was cancelled. Call it once per scan.
-  void check_cancelled() const {
-    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled();
-  }
+  void check_cancelled() const { throw_if_cancelled(cancel); }
   void begin_pass(const char* what, std::size_t scans) const {
     if (progress != nullptr) progress->begin(what, scans);
   }

@@ -17,7 +17,7 @@ datasets               records clouds|fields|geometry registration trajectories 
 datasets               sequence_record sequence reading|settings layout
 datasets               semantickitti|dynamicmap|files|bag_scans|truth_map helimos
 datasets               simulation layouts sequence_poses open_sequence inspection
-datasets/bags          bag|bag_file bag_index|decompress|messages ros1|mcap|ros2 open_bag
+datasets/bags          bag|bag_file bag_formats|bag_index|decompress|messages ros1|mcap|ros2 open_bag
 datasets/clouds        format las|numpy .
 datasets/simulation    shapes world sensor scene|street .
 datasets/inspection    evidence checks .

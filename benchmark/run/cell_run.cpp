@@ -11,6 +11,7 @@
 #include "benchmark/result/cell_json.h"
 #include "benchmark/result/removals/reasons.h"
 #include "benchmark/result/removals/removal_files.h"
+#include "core/error.h"
 #include "core/files/file_kind.h"
 
 namespace raymoval {
@@ -37,10 +38,6 @@ ProtocolRecord protocol_record(const ScoredSequence& scored, std::size_t i) {
   return {scored.protocol_name(i), protocol.name(), protocol.version(), protocol.options()};
 }
 
-void check_cancelled(const MethodTask& task) {
-  if (task.cancel != nullptr && task.cancel->load()) throw Cancelled();
-}
-
 void write_cell_removals(const std::filesystem::path& removals, const MethodTask& task,
                          const MethodAnswer& answer) {
   const ScanSource& scans = *task.sequence->scans;
@@ -51,7 +48,7 @@ void write_cell_removals(const std::filesystem::path& removals, const MethodTask
   }
   try {
     write_removals(removals, scans, answer.masks, [&] {
-      check_cancelled(task);
+      throw_if_cancelled(task.cancel);
       if (task.progress != nullptr) task.progress->advance();
     });
     write_reasons(removals, scans, answer.reasons);
@@ -74,7 +71,7 @@ void score_masks(ScoredSequence& scored, const MethodTask& task, const MethodAns
   cell.measured = answer.measured;
   cell.masks = MaskRecord{mask_digest(answer.masks),
                           static_cast<std::int64_t>(answer.masks.removed_count())};
-  check_cancelled(task);
+  throw_if_cancelled(task.cancel);
   SequenceScores scores = scored.score(answer.masks, task.cancel, answer.confidence);
   for (std::size_t i = 0; i < scores.protocols.size(); ++i) {
     ProtocolResult& result = scores.protocols[i];

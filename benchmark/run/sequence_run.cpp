@@ -12,6 +12,7 @@
 #include "benchmark/process/checked_sink.h"
 #include "benchmark/result/run_record_json.h"
 #include "benchmark/run/folder/run_folder.h"
+#include "core/error.h"
 #include "core/process/proc_files.h"
 #include "core/terminal_colour.h"
 #include "core/text.h"
@@ -41,10 +42,6 @@ CellLines cell_lines(const OpenedSuite& suite) {
   for (const Sequence& sequence : suite.sequences()) sequences.push_back(sequence.name);
   for (const MethodRequest& request : suite.suite().methods) methods.push_back(request.name);
   return {sequences, methods, suite.cells().size()};
-}
-
-void check_cancelled(const RunOptions& options) {
-  if (options.cancel != nullptr && options.cancel->load()) throw Cancelled();
 }
 
 }  // namespace
@@ -211,7 +208,7 @@ MethodTask SequenceRuns::task_for(ScoredSequence& scored, CellIndex index) const
 }
 
 void SequenceRuns::run_cell(ScoredSequence& scored, CellIndex index) {
-  check_cancelled(suite_.options());
+  throw_if_cancelled(suite_.options().cancel);
   if (suite_.is_alone() && !suite_.is_selected(index)) return;
   const MethodRequest& method = suite_.method(index);
   StoredCell stored = suite_.stored_cell(scored, index);

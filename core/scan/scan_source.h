@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/scan/scan.h"
@@ -20,6 +22,19 @@ class ScanSource {
   /// `T_world_sensor` of scan `index`, without reading its points.
   [[nodiscard]] virtual Pose pose(std::size_t index) const = 0;
   [[nodiscard]] virtual const SensorModel& sensor() const = 0;  ///< One for all scans.
+};
+
+/// Scans that are made of those of another source. A subclass overrides what it changes.
+class DerivedSource : public ScanSource {
+ public:
+  explicit DerivedSource(std::shared_ptr<const ScanSource> whole) : whole_(std::move(whole)) {}
+  [[nodiscard]] std::size_t size() const override { return whole_->size(); }
+  [[nodiscard]] Pose pose(std::size_t index) const override { return whole_->pose(index); }
+  [[nodiscard]] const SensorModel& sensor() const override { return whole_->sensor(); }
+  [[nodiscard]] const ScanSource& whole() const { return *whole_; }
+
+ protected:
+  std::shared_ptr<const ScanSource> whole_;
 };
 
 /// Label words of a scan: lower 16 bits semantic id, upper 16 bits instance id (SemanticKITTI).

@@ -129,7 +129,7 @@ ScanHeads read_scan_heads(const Bag& bag, std::size_t topic, const FrameRange& r
   heads.range = chosen.range;
   LeftOut left_out;
   for (const NumberedFile& file : chosen.files) {
-    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    throw_if_cancelled(cancel);
     const auto message = static_cast<std::size_t>(file.number);
     const auto head = reader.read(message, left_out);
     if (!head) continue;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string>
@@ -79,6 +80,23 @@ class MessageTable {
   std::map<Key, std::size_t> numbers_;
   std::vector<std::deque<Message>> messages_;  ///< A deque never has twice its size at once.
   std::uint64_t size_ = 0;
+};
+
+/// A recording with an index that is filled when it is opened.
+class IndexedBag : public Bag {
+ public:
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return table_.topics(); }
+  [[nodiscard]] Nanoseconds recorded(std::size_t topic, std::size_t index) const override {
+    return table_.at(topic, index).recorded;
+  }
+  [[nodiscard]] std::string message(std::size_t topic, std::size_t index) const override {
+    return message_head(topic, index, std::numeric_limits<std::size_t>::max());
+  }
+  [[nodiscard]] std::vector<std::string> damage() const override { return damage_.sentences(); }
+
+ protected:
+  mutable DamageNotes damage_;
+  MessageTable table_;
 };
 
 /// "sensor_msgs/PointCloud2" of "sensor_msgs/msg/PointCloud2"; other names are unchanged.

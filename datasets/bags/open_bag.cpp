@@ -15,11 +15,10 @@
 #include "core/text.h"
 #include "datasets/bags/bag.h"
 #include "datasets/bags/bag_file.h"
+#include "datasets/bags/bag_formats.h"
 #include "datasets/bags/decompress.h"
-#include "datasets/bags/mcap/mcap_bag.h"
-#include "datasets/bags/ros1/ros1_bag.h"
-#include "datasets/bags/ros2/db3_bag.h"
-#include "datasets/bags/ros2/folder_bag.h"
+#include "datasets/bags/mcap/mcap_file.h"
+#include "datasets/bags/ros1/ros1_file.h"
 
 namespace raymoval {
 namespace {
@@ -115,11 +114,11 @@ bool has_bag_ending(const fs::path& path) {
 std::unique_ptr<Bag> open_inside(const fs::path& file) {
   switch (container_of(file)) {
     case BagContainer::kRos1:
-      return std::make_unique<Ros1Bag>(file);
+      return open_ros1(file);
     case BagContainer::kMcap:
-      return std::make_unique<McapBag>(file);
+      return open_mcap(file);
     case BagContainer::kDb3:
-      return std::make_unique<Db3Bag>(file);
+      return open_db3(file);
     case BagContainer::kZstd:
       break;
   }
@@ -139,9 +138,7 @@ std::unique_ptr<Bag> open_in_folder(const fs::path& file) {
 }
 
 std::unique_ptr<Bag> open_folder(const fs::path& folder) {
-  if (is_bag(folder)) {
-    return std::make_unique<Ros2FolderBag>(folder, open_in_folder);
-  }
+  if (is_bag(folder)) return open_ros2_folder(folder, open_in_folder);
   std::vector<std::string> inside;
   for (const fs::path& entry : entries_of(folder)) {
     if (has_bag_ending(entry) && inside.size() < 5) inside.push_back(entry.filename().string());

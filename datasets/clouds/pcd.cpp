@@ -272,16 +272,7 @@ CloudHeader parse_pcd_header(std::string_view bytes, const std::filesystem::path
 }
 
 CloudFormat pcd_format() {
-  CloudFormat format{".pcd"};
-  format.read_cloud = [](const CloudBytes& file, const Eigen::Vector3d& origin) {
-    return header_cloud(parse_pcd_header(file.text, file.path), file, origin);
-  };
-  format.read_records = [](const CloudBytes& file) {
-    return header_records(parse_pcd_header(file.text, file.path), file);
-  };
-  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
-    return std::make_unique<PcdEncoder>();
-  };
+  CloudFormat format = header_format<PcdEncoder, parse_pcd_header>(".pcd");
   format.lost = lost_in_pcd;
   format.read_layout = read_pcd_layout;
   return format;

@@ -204,16 +204,7 @@ CloudHeader parse_ply_header(std::string_view bytes, const std::filesystem::path
 }
 
 CloudFormat ply_format() {
-  CloudFormat format{".ply"};
-  format.read_cloud = [](const CloudBytes& file, const Eigen::Vector3d& origin) {
-    return header_cloud(parse_ply_header(file.text, file.path), file, origin);
-  };
-  format.read_records = [](const CloudBytes& file) {
-    return header_records(parse_ply_header(file.text, file.path), file);
-  };
-  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
-    return std::make_unique<PlyEncoder>();
-  };
+  CloudFormat format = header_format<PlyEncoder, parse_ply_header>(".ply");
   format.lost = lost_in_ply;
   return format;
 }

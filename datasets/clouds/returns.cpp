@@ -118,7 +118,7 @@ void drop_bad_scans(std::vector<std::optional<Pose>>& poses,
   std::string first;
   std::size_t bad = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    throw_if_cancelled(cancel);
     if (!poses[i]) continue;
     try {
       read(i);

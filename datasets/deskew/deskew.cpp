@@ -268,7 +268,7 @@ PointClock find_point_clock(const ScanSource& scans, const DeskewInput& input,
 
 DeskewedSource::DeskewedSource(std::shared_ptr<const ScanSource> whole, DeskewInput input,
                                PointClock clock)
-    : whole_(std::move(whole)), input_(std::move(input)), clock_(std::move(clock)) {
+    : DerivedSource(std::move(whole)), input_(std::move(input)), clock_(std::move(clock)) {
   if (input_.stamps.size() != whole_->size()) {
     throw InternalError("scans and their times differ in number");
   }

@@ -71,22 +71,16 @@ PointClock find_point_clock(const ScanSource& scans, const DeskewInput& input,
 /// Scans of another source, corrected for the motion of the sensor during the scan: each point is
 /// in the sensor frame at the time of the scan. Poses are interpolated; shortly before the first
 /// and after the last pose, the motion is extrapolated.
-class DeskewedSource : public ScanSource {
+class DeskewedSource : public DerivedSource {
  public:
   DeskewedSource(std::shared_ptr<const ScanSource> whole, DeskewInput input, PointClock clock);
 
-  [[nodiscard]] std::size_t size() const override { return whole_->size(); }
   /// @throws DataError also for a point whose time is not finite, or too far from the poses
   [[nodiscard]] Scan load(std::size_t index) const override;
-  [[nodiscard]] Pose pose(std::size_t index) const override { return whole_->pose(index); }
-  /// The sensor model of the scans before the correction.
-  [[nodiscard]] const SensorModel& sensor() const override { return whole_->sensor(); }
 
-  [[nodiscard]] const ScanSource& whole() const { return *whole_; }
   [[nodiscard]] const PointClock& clock() const { return clock_; }
 
  private:
-  std::shared_ptr<const ScanSource> whole_;
   DeskewInput input_;
   PointClock clock_;
 };

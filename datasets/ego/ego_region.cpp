@@ -116,7 +116,7 @@ EgoRegion estimated_region(const ScanSource& source, const std::optional<Eigen::
 
 EgoFreeSource::EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked,
                              std::optional<Eigen::Vector3d> up)
-    : whole_(std::move(whole)),
+    : DerivedSource(std::move(whole)),
       asked_(asked),
       up_(std::move(up)),
       sensor_(std::nullopt),

@@ -41,7 +41,7 @@ std::string ego_region_text(const EgoRegion& region);
 
 /// Scans of another source without the points of the ego vehicle. These are left out of `Scan` like
 /// missing returns: `stored_index` has the stored positions of the other points.
-class EgoFreeSource : public ScanSource {
+class EgoFreeSource : public DerivedSource {
  public:
   /// @param asked the region; kind kEstimated is estimated at first use from up to twenty scans of
   ///   `whole`
@@ -49,21 +49,17 @@ class EgoFreeSource : public ScanSource {
   EgoFreeSource(std::shared_ptr<const ScanSource> whole, EgoRegion asked,
                 std::optional<Eigen::Vector3d> up = std::nullopt);
 
-  [[nodiscard]] std::size_t size() const override { return whole_->size(); }
   /// @throws DataError also if no point is left, or the region cannot be estimated
   [[nodiscard]] Scan load(std::size_t index) const override;
-  [[nodiscard]] Pose pose(std::size_t index) const override { return whole_->pose(index); }
   /// An estimated sensor model is estimated from the remaining points.
   [[nodiscard]] const SensorModel& sensor() const override;
 
-  [[nodiscard]] const ScanSource& whole() const { return *whole_; }
   [[nodiscard]] const EgoRegion& asked() const { return asked_; }
   /// The region as used; of kind kNone if nothing was found. @throws DataError as `load`
   [[nodiscard]] const EgoRegion& region() const;
   [[nodiscard]] const LeftOutTally& tally() const { return tally_; }
 
  private:
-  std::shared_ptr<const ScanSource> whole_;
   EgoRegion asked_;
   std::optional<Eigen::Vector3d> up_;
   SensorChoice sensor_;

@@ -13,7 +13,7 @@ namespace raymoval {
 
 SensorOriginSource::SensorOriginSource(std::shared_ptr<const ScanSource> whole,
                                        std::vector<Eigen::Vector3d> origins)
-    : whole_(std::move(whole)), origins_(std::move(origins)), sensor_(std::nullopt) {}
+    : DerivedSource(std::move(whole)), origins_(std::move(origins)), sensor_(std::nullopt) {}
 
 Pose SensorOriginSource::pose(std::size_t index) const {
   return whole_->pose(index) * Eigen::Translation3d(origins_.at(index));

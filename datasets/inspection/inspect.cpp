@@ -80,7 +80,7 @@ InspectionReport inspect(const Sequence& sequence, int threads, const std::atomi
   report.scans = samples.size();
   report.scans_read = samples.scans().size();
   for (const InspectionCheck& check : inspection_checks()) {
-    if (cancel != nullptr && cancel->load()) throw Cancelled();
+    throw_if_cancelled(cancel);
     for (Finding& finding : check.look(samples)) {
       report.findings.push_back(completed(std::move(finding), check, samples));
     }

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/sampling.h"
 #include "core/text.h"
-#include "datasets/odometry/motion_search.h"
+#include "datasets/odometry/pose_graph.h"
 #include "datasets/registration/pose_fit.h"
 #include "datasets/registration/reposed_source.h"
 

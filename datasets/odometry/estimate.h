@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/odometry/loops.h"
+#include "datasets/odometry/steps.h"
 
 namespace raymoval::odometry {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/odometry/loops.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "datasets/odometry/map_registration.h"
+#include "datasets/odometry/steps.h"
 #include "datasets/registration/pose_fit.h"
 #include "datasets/registration/station_grid.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/odometry/motion_search.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "datasets/odometry/map_registration.h"
+#include "datasets/odometry/steps.h"
 #include "datasets/trajectories/trajectory.h"
 
 namespace raymoval::odometry {
@@ -36,7 +35,7 @@ class SearchedScans {
   SearchedScans(const MovingScans& input, std::size_t begin, std::size_t count)
       : scale_(input.scale) {
     for (std::size_t i = begin; i < begin + count; ++i) {
-      if (input.cancel != nullptr && input.cancel->load()) throw Cancelled();
+      throw_if_cancelled(input.cancel);
       Scan scan = input.scans.load(i);
       times_.push_back(scan.time_s);
       if (input.point_times) {

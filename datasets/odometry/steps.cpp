@@ -74,7 +74,7 @@ void register_start(const MovingScans& input, Steps& steps) {
 
 ThinnedScan thinned(const MovingScans& input, const std::vector<Pose>& poses,
                     const std::vector<double>& times, std::size_t i) {
-  if (input.cancel != nullptr && input.cancel->load()) throw Cancelled();
+  throw_if_cancelled(input.cancel);
   const Scan scan = input.scans.load(i);
   ScanMotion motion;
   if (input.point_times && poses.size() > 1) {
@@ -101,7 +101,7 @@ Steps odometry_of(const MovingScans& input, const Course& course, const std::vec
       parallel_for(input.threads, scans.size(), 1,
                    [&](std::size_t k) { scans[k] = input.scans.load(i + k); });
     }
-    if (input.cancel != nullptr && input.cancel->load()) throw Cancelled();
+    throw_if_cancelled(input.cancel);
     const Scan& scan = scans[i % kScansAtOnce];
     std::optional<Pose> hint;
     if (given != nullptr && i > 0) hint = (*given)[i - 1].inverse() * (*given)[i];

@@ -156,7 +156,7 @@ class SurfaceClouds {
     }
     clouds_ = std::move(wanted);
     parallel_for(threads_, missing.size(), 1, [&](std::size_t i) {
-      if (cancel_ != nullptr && cancel_->load()) throw Cancelled();
+      throw_if_cancelled(cancel_);
       clouds_.at(missing[i]) = std::make_shared<SurfaceCloud>(scans_.load(missing[i]));
     });
   }
@@ -223,7 +223,7 @@ PoseFit measure_pose_fit(const ScanSource& scans, int threads, const std::atomic
     clouds.load(&pairs[begin], count);
     std::vector<Registration> found(count);
     parallel_for(threads, count, 1, [&](std::size_t i) {
-      if (cancel != nullptr && cancel->load()) throw Cancelled();
+      throw_if_cancelled(cancel);
       const PairDistance& pair = pairs[begin + i];
       const Pose &from = poses[pair.from], &to = poses[pair.to];
       found[i] = register_scans(clouds[pair.from], clouds[pair.to], motion_of(from, to),

@@ -225,10 +225,4 @@ std::vector<StampedPose> stamped_poses(const PoseFile& file, std::vector<std::st
   return poses;
 }
 
-Trajectory trajectory_of(const PoseFile& file) {
-  if (!file.stamped()) throw InternalError("a trajectory of poses without times");
-  std::vector<std::string> ignored;
-  return Trajectory(stamped_poses(file, ignored));
-}
-
 }  // namespace raymoval

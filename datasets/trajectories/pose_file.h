@@ -74,7 +74,5 @@ Pose rigid_pose(const PoseFile& file, std::size_t row);
 /// @param notes gets the number of these rows
 /// @throws DataError as above, and if no row has a pose
 std::vector<StampedPose> stamped_poses(const PoseFile& file, std::vector<std::string>& notes);
-/// These poses as a trajectory. @throws InternalError if it has no times, DataError as above
-Trajectory trajectory_of(const PoseFile& file);
 
 }  // namespace raymoval

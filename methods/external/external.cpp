@@ -349,7 +349,7 @@ class External : public Remover {
     setup.cancel = context.cancel;
     const std::string fault =
         fault_of(run_child(setup), setup.limits.seconds, manifest_.disk_limit_gib);
-    if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
+    throw_if_cancelled(context.cancel);
     if (!fault.empty()) throw MethodError(fmt::format("'{}' {}", setup.program, fault));
     context.advance();
   }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Compiled without errno and trap handling of the square root (see CMakeLists.txt), so that
 // the loop of `ImageFrame::project` is vectorised.
-#include "methods/mapcleaner/range_image.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/parallel.h"
 #include "methods/common/single_angles.h"
+#include "methods/mapcleaner/votes.h"
 
 namespace raymoval::mapcleaner_method {
 namespace {

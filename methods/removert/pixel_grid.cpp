@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Compiled without errno and trap handling of the square root (see CMakeLists.txt), so that
 // the loop of `PointBatch::project` is vectorised.
-#include "methods/removert/pixel_grid.h"
-
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "methods/common/single_angles.h"
+#include "methods/removert/scan_image.h"
 
 namespace raymoval::removert_method {
 namespace {

@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scan/scan_source.h"
 #include "tests/datasets/temporary_folder.h"
+#include "tests/methods/held_scans.h"
 
 namespace raymoval::test {
 
 /// Two scans: "000007" has three points, of five stored (positions 0, 2 and 4); "000008" has one.
-class TwoScans : public ScanSource {
+class TwoScans : public toy::HeldScans {
  public:
-  [[nodiscard]] std::size_t size() const override { return 2; }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan;
-    scan.index = index;
-    if (index == 0) {
-      scan.name = "000007";
-      scan.points = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-      scan.stored_point_count = 5;
-      scan.stored_index = {0, 2, 4};
-    } else {
-      scan.name = "000008";
-      scan.points = {{1, 0, 0}};
-      scan.stored_point_count = 1;
-    }
-    return scan;
+  TwoScans() {
+    add({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+    add({{1, 0, 0}});
+    scans_[0].name = "000007";
+    scans_[0].stored_point_count = 5;
+    scans_[0].stored_index = {0, 2, 4};
+    scans_[1].name = "000008";
   }
-  [[nodiscard]] Pose pose(std::size_t) const override { return Pose::Identity(); }
-  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
-
- private:
-  SensorModel sensor_;
 };
 
 /// A sequence of one scan with a static and a moving point, in the folder's layout of KITTI.

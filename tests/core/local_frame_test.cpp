@@ -3,31 +3,21 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/methods/held_scans.h"
+
 using namespace raymoval;
 using Eigen::Vector3d;
 
 namespace {
 
 /// One point ahead of the sensor in each scan; scans a metre apart along x.
-class Row : public ScanSource {
+class Row : public toy::HeldScans {
  public:
-  explicit Row(const Vector3d& first) : first_(first) {}
-  [[nodiscard]] std::size_t size() const override { return 3; }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan;
-    scan.index = index;
-    scan.T_world_sensor = pose(index);
-    scan.points = {{5.0F, 0.0F, 0.0F}};
-    return scan;
+  explicit Row(const Vector3d& first) {
+    for (int x = 0; x < 3; ++x) {
+      add({{5.0F, 0.0F, 0.0F}}, Pose(Eigen::Translation3d(first + Vector3d(x, 0, 0))));
+    }
   }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return Pose(Eigen::Translation3d(first_ + Vector3d(static_cast<double>(index), 0, 0)));
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
-
- private:
-  Vector3d first_;
-  SensorModel sensor_;
 };
 
 }  // namespace

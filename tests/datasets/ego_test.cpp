@@ -10,6 +10,7 @@
 #include "datasets/reading/left_out.h"
 #include "datasets/simulation/scene/simulated.h"
 #include "tests/datasets/inspect_data.h"
+#include "tests/methods/held_scans.h"
 
 using namespace raymoval;
 using namespace raymoval::test;
@@ -138,37 +139,16 @@ TEST_CASE("the ground before a sensor that looks down is no vehicle", "[ego]") {
   CHECK(scans.region().kind == EgoRegion::Kind::kNone);
 }
 
-namespace {
-
-/// Scans of a sensor that lies on its side.
-class OnItsSide : public ScanSource {
- public:
-  explicit OnItsSide(std::shared_ptr<const ScanSource> upright) : upright_(std::move(upright)) {}
-  [[nodiscard]] std::size_t size() const override { return upright_->size(); }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return upright_->pose(index) *
-           Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
-  }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = upright_->load(index);
-    for (Eigen::Vector3f& point : scan.points) point = {point.x(), point.z(), -point.y()};
-    scan.T_world_sensor = pose(index);
-    return scan;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return upright_->sensor(); }
-
- private:
-  std::shared_ptr<const ScanSource> upright_;
-};
-
-}  // namespace
-
 TEST_CASE("the floor beside a sensor that lies on its side is no vehicle", "[ego]") {
   SimulationOptions options;
   options.scene = "walk";
   options.sensor = "hdl32e";
   options.scans = 60;
-  const auto walk = std::make_shared<OnItsSide>(make_simulated(options));
+  const auto walk = std::make_shared<toy::ChangedScans>(make_simulated(options), [](Scan& scan) {
+    for (Eigen::Vector3f& point : scan.points) point = {point.x(), point.z(), -point.y()};
+    scan.T_world_sensor =
+        scan.T_world_sensor * Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
+  });
   CHECK(EgoFreeSource(walk, parse_ego_region("auto")).region().kind == EgoRegion::Kind::kNone);
 }
 

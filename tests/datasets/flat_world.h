@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "core/scan/scan_source.h"
+#include "tests/methods/held_scans.h"
 
 namespace raymoval::test {
 
@@ -17,13 +17,12 @@ struct Rectangle {
 };
 
 /// Scans of rectangles: rows from -25 to +15 degrees by 1, columns by 1.5 degrees.
-class FlatWorld : public ScanSource {
+class FlatWorld : public toy::HeldScans {
  public:
   void scan(const std::vector<Rectangle>& surfaces, const Pose& T_world_sensor,
             double time_s = 0.0) {
     Scan scan;
     scan.time_s = time_s;
-    scan.index = scans_.size();
     scan.T_world_sensor = T_world_sensor;
     for (double azimuth = 0.3; azimuth < 360.0; azimuth += 1.5) {
       for (double elevation = -25.0; elevation <= 15.0; elevation += 1.0) {
@@ -35,19 +34,12 @@ class FlatWorld : public ScanSource {
         if (range < 60.0) scan.points.push_back((range * ray).cast<float>());
       }
     }
-    scan.stored_point_count = scan.size();
-    scans_.push_back(scan);
+    add_scan(std::move(scan));
   }
   void shuffle() {
     std::mt19937 random(5);
     for (Scan& scan : scans_) std::shuffle(scan.points.begin(), scan.points.end(), random);
   }
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t index) const override { return scans_.at(index); }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return scans_.at(index).T_world_sensor;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
 
  private:
   static double nearest(const std::vector<Rectangle>& surfaces, const Pose& pose,
@@ -65,17 +57,21 @@ class FlatWorld : public ScanSource {
     }
     return range;
   }
-  std::vector<Scan> scans_;
-  SensorModel model_;
 };
 
-/// A hall of 40 x 24 m and 6 m in height.
-inline std::vector<Rectangle> hall() {
+/// The inner surfaces of a box around the origin in plan, from z = 0 up to `height`, metres.
+inline std::vector<Rectangle> inside_of_box(double length, double width, double height) {
+  const double x = length / 2, y = width / 2, z = height / 2;
   std::vector<Rectangle> surfaces;
-  for (const double z : {0.0, 6.0}) surfaces.push_back({{0, 0, z}, {20, 0, 0}, {0, 12, 0}});
-  for (const double y : {-12.0, 12.0}) surfaces.push_back({{0, y, 3}, {20, 0, 0}, {0, 0, 3}});
-  for (const double x : {-20.0, 20.0}) surfaces.push_back({{x, 0, 3}, {0, 12, 0}, {0, 0, 3}});
+  for (const double side : {-1.0, 1.0}) {
+    surfaces.push_back({{0, 0, z + side * z}, {x, 0, 0}, {0, y, 0}});
+    surfaces.push_back({{0, side * y, z}, {x, 0, 0}, {0, 0, z}});
+    surfaces.push_back({{side * x, 0, z}, {0, y, 0}, {0, 0, z}});
+  }
   return surfaces;
+}
+inline std::vector<Rectangle> hall() {
+  return inside_of_box(40.0, 24.0, 6.0);
 }
 
 }  // namespace raymoval::test

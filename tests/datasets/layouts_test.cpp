@@ -5,7 +5,7 @@
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/fingerprint.h"
-#include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/open_folders.h"
 #include "tests/datasets/written_cloud.h"
 
 using namespace raymoval;
@@ -25,11 +25,6 @@ void write_dynamicmap(const TemporaryFolder& folder) {
   // The sensor is at (10, 0, 1), rotated left by 90 degrees: its x is the world's y.
   folder.write("pcd/000008.pcd", world_pcd("10 0 1 0.7071067811865476 0 0 0.7071067811865476",
                                            "10 2 1 1\n7 0 5 0\n", 2));
-}
-
-template <class Wanted = DataError>
-std::string open_error(const std::string& path, const SequenceOptions& options = {}) {
-  return message_of<Wanted>([&] { open_sequence(path, options); });
 }
 
 }  // namespace

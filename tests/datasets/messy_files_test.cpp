@@ -9,17 +9,12 @@
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
 #include "datasets/trajectories/pose_file.h"
-#include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/open_folders.h"
 
 using namespace raymoval;
 using namespace raymoval::test;
 
 namespace {
-
-/// Scans with one point at (5, 0, 0) each.
-void write_scans(const TemporaryFolder& folder, const std::vector<std::string>& names) {
-  for (const std::string& name : names) folder.write(name, floats({5, 0, 0, 1}));
-}
 
 std::vector<std::string> names_of(const Sequence& sequence) {
   std::vector<std::string> names;
@@ -27,14 +22,6 @@ std::vector<std::string> names_of(const Sequence& sequence) {
     names.push_back(sequence.scans->load(i).name);
   }
   return names;
-}
-
-std::vector<double> xs_of(const Sequence& sequence) {
-  std::vector<double> xs;
-  for (std::size_t i = 0; i < sequence.scans->size(); ++i) {
-    xs.push_back(sequence.scans->pose(i).translation().x());
-  }
-  return xs;
 }
 
 std::string tum_row(const std::string& time, double x) {

@@ -11,6 +11,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/scan/local_frame.h"
 #include "datasets/odometry/estimate.h"
 #include "datasets/odometry/odometry.h"
 #include "datasets/registration/reposed_source.h"
@@ -52,26 +53,6 @@ FlatWorld round_trip() {
   }
   return world;
 }
-
-/// The scans of another source, by a sensor whose axes are turned.
-class TurnedScans : public ScanSource {
- public:
-  TurnedScans(const ScanSource& whole, const Eigen::Matrix3d& turn) : whole_(whole), turn_(turn) {}
-  [[nodiscard]] std::size_t size() const override { return whole_.size(); }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return whole_.pose(index) * Pose(turn_.transpose());
-  }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = whole_.load(index);
-    for (Eigen::Vector3f& point : scan.points) point = turn_.cast<float>() * point;
-    return scan;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return whole_.sensor(); }
-
- private:
-  const ScanSource& whole_;
-  Eigen::Matrix3d turn_;
-};
 
 /// Largest distance of poses from the truth, relative to the first pose, metres.
 double error_of(const std::vector<Pose>& poses, const ScanSource& truth) {
@@ -194,7 +175,8 @@ TEST_CASE("estimates do not depend on where surfaces lie, nor on the axes of the
     for (int i = 0; i < 10; ++i) world.scan(room(shift), pose_at(0.2 * i, 0.02 * i * i, 2.0 * i));
     for (const Eigen::AngleAxisd& turn : turns) {
       CAPTURE(shift.transpose(), turn.axis().transpose(), turn.angle());
-      const TurnedScans turned(world, turn.toRotationMatrix());
+      const toy::ChangedScans turned(
+          world, [&](Scan& scan) { turn_sensor_frame(turn.toRotationMatrix(), scan); });
       MovingScans input{turned};
       input.scale = {5.0, 0.5};
       CHECK(error_of(estimate_poses(input).poses, turned) < 0.02);
@@ -317,38 +299,27 @@ TEST_CASE("scans that do not overlap are refused by name", "[odometry]") {
 namespace {
 
 /// Scans of a corridor that is 4 m wide and has no end: random points on its floor and walls.
-class Corridor : public ScanSource {
- public:
-  [[nodiscard]] std::size_t size() const override { return 6; }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return pose_at(0.3 * static_cast<double>(index), 0.0, 0.0);
-  }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan;
-    scan.index = index;
-    scan.name = std::to_string(index);
-    scan.time_s = 0.1 * static_cast<double>(index);
-    std::mt19937 random(static_cast<unsigned>(index));
+toy::HeldScans corridor_scans() {
+  toy::HeldScans scans;
+  for (unsigned index = 0; index < 6; ++index) {
+    std::mt19937 random(index);
     std::uniform_real_distribution<float> ahead(-12.0F, 12.0F), high(-1.5F, 1.5F),
         side(-2.0F, 2.0F);
+    std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 3000; ++i) {
-      scan.points.emplace_back(ahead(random), 2.0F, high(random));
-      scan.points.emplace_back(ahead(random), -2.0F, high(random));
-      scan.points.emplace_back(ahead(random), side(random), -1.5F);
+      points.emplace_back(ahead(random), 2.0F, high(random));
+      points.emplace_back(ahead(random), -2.0F, high(random));
+      points.emplace_back(ahead(random), side(random), -1.5F);
     }
-    scan.stored_point_count = scan.size();
-    return scan;
+    scans.add(std::move(points), pose_at(0.3 * index, 0.0, 0.0));
   }
-  [[nodiscard]] const SensorModel& sensor() const override { return model_; }
-
- private:
-  SensorModel model_;
-};
+  return scans;
+}
 
 }  // namespace
 
 TEST_CASE("a corridor without features is refused, and given poses serve there", "[odometry]") {
-  const Corridor corridor;
+  const toy::HeldScans corridor = corridor_scans();
   try {
     (void)estimate_poses({corridor});
     FAIL("no error");

@@ -16,7 +16,7 @@
 #include "tests/datasets/wrong_poses.h"
 
 namespace raymoval::registration {
-using test::WrongPoses;
+using test::wrong_poses;
 
 namespace {
 
@@ -79,7 +79,7 @@ TEST_CASE("surfaces do not depend on the order of points", "[registration]") {
 }
 
 TEST_CASE("only pairs across a jump of the poses do not fit", "[registration]") {
-  const WrongPoses poses([](std::size_t i) -> Eigen::Vector3d {
+  const auto poses = wrong_poses([](std::size_t i) -> Eigen::Vector3d {
     return {0.0, i < 25 ? 0.0 : 0.4, 0.0};
   });
   const PoseFit jump = measure_pose_fit(poses, 1);
@@ -99,37 +99,25 @@ TEST_CASE("only pairs across a jump of the poses do not fit", "[registration]") 
 namespace {
 
 /// The street twice: even scans, then odd scans with an error of the poses in plan.
-class TwoPasses : public ScanSource {
- public:
-  explicit TwoPasses(const Eigen::Vector3d& error) : error_(error) {}
-  [[nodiscard]] std::size_t size() const override { return street_.scans->size(); }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    Pose pose = street_.scans->pose(of(index));
-    if (2 * index >= size()) pose.translation() += error_;
-    return pose;
+toy::HeldScans two_passes(const Eigen::Vector3d& error) {
+  const auto street = make_street({}, street_boxes()).scans;
+  toy::HeldScans passes(street->sensor());
+  for (std::size_t i = 0; i < street->size(); i += 2) passes.add_scan(street->load(i));
+  for (std::size_t i = 1; i < street->size(); i += 2) {
+    Scan scan = street->load(i);
+    scan.T_world_sensor.translation() += error;
+    passes.add_scan(std::move(scan));
   }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = street_.scans->load(of(index));
-    scan.T_world_sensor = pose(index);
-    return scan;
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return street_.scans->sensor(); }
-
- private:
-  [[nodiscard]] std::size_t of(std::size_t index) const {
-    return 2 * index < size() ? 2 * index : 2 * index - size() + 1;
-  }
-  Sequence street_ = make_street({}, street_boxes());
-  Eigen::Vector3d error_;
-};
+  return passes;
+}
 
 }  // namespace
 
 TEST_CASE("an error in plan of up to 3 m on a return to a place is found", "[registration]") {
-  CHECK(fits(measure_pose_fit(TwoPasses({0.0, 0.0, 0.0}), 2)));
+  CHECK(fits(measure_pose_fit(two_passes({0.0, 0.0, 0.0}), 2)));
   for (const double error : {0.3, 1.0, 2.0, 3.0}) {
     CAPTURE(error);
-    const PoseFit side = measure_pose_fit(TwoPasses({0.0, error, 0.0}), 2);
+    const PoseFit side = measure_pose_fit(two_passes({0.0, error, 0.0}), 2);
     CHECK(std::any_of(side.pairs.begin(), side.pairs.end(), [](const PairDistance& pair) {
       return pair.is_return && pair.distance_m > kMostDistanceOfPair;
     }));
@@ -140,11 +128,11 @@ TEST_CASE("poses that are wrong between two stations do not fit", "[registration
   const auto between = [](std::size_t i) -> Eigen::Vector3d {
     return {0.0, i > 1 && i < 7 ? 0.5 : 0.0, 0.0};
   };
-  CHECK(worst_pair(measure_pose_fit(WrongPoses(between), 2)).distance_m > kMostDistanceOfPair);
+  CHECK(worst_pair(measure_pose_fit(wrong_poses(between), 2)).distance_m > kMostDistanceOfPair);
 }
 
 TEST_CASE("less than two scans, and scans without points, fit without a pair", "[registration]") {
-  const WrongPoses street([](std::size_t) { return Eigen::Vector3d::Zero(); });
+  const auto street = wrong_poses([](std::size_t) { return Eigen::Vector3d::Zero(); });
   Scan empty = street.load(0);
   empty.points.clear();
   const SurfaceCloud nothing(empty);

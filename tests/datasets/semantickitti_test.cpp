@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "datasets/open_sequence.h"
 #include "datasets/reading/left_out.h"
-#include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/open_folders.h"
 
 using namespace raymoval;
 using namespace raymoval::test;
@@ -39,11 +39,6 @@ SequenceOptions with_frames(const std::string& text) {
   SequenceOptions options;
   options.frames = parse_frame_range(text);
   return options;
-}
-
-template <class Wanted = DataError>
-std::string open_error(const std::string& path, const SequenceOptions& options = {}) {
-  return message_of<Wanted>([&] { open_sequence(path, options); });
 }
 
 }  // namespace

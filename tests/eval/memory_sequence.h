@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/scan/mask_store.h"
 #include "core/scan/scan_source.h"
 #include "eval/protocol_registry.h"
@@ -25,6 +28,20 @@ struct LabelledScan {
     mask.push_back(flagged ? 1 : 0);
   }
 };
+
+/// The scan with its points in another order.
+inline LabelledScan shuffled(const LabelledScan& scan, std::mt19937& random) {
+  std::vector<std::size_t> order(scan.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), random);
+  LabelledScan other;
+  other.pose = scan.pose;
+  for (const std::size_t i : order) {
+    const Eigen::Vector3f& p = scan.points[i];
+    other.add(p.x(), p.y(), p.z(), scan.labels[i], scan.mask[i] != 0);
+  }
+  return other;
+}
 
 /// A sequence that lives in memory.
 class MemorySequence : public ScanSource, public LabelSource {
@@ -96,6 +113,13 @@ inline std::unique_ptr<Protocol> protocol_with(const std::string& name,
 inline ProtocolResult score_by(const std::string& name, const EvaluationInput& input,
                                const MaskStore& masks, const Settings& settings = {}) {
   return protocol_with(name, settings)->open(input)->score(masks);
+}
+
+inline const Rate& rate_named(const ProtocolResult& result, const std::string& name) {
+  for (const Rate& rate : result.rates) {
+    if (rate.name == name) return rate;
+  }
+  throw InternalError("no rate " + name);
 }
 
 inline std::unique_ptr<Protocol> erasor_protocol(const Settings& settings = {}) {

@@ -58,41 +58,18 @@ TEST_CASE("the counts that no mask can change are those of scans and labels", "[
         Configuration{{"label_mode", std::string("nearest")}, {"lift", 0.0}});
 }
 
-TEST_CASE("points that are on neither side are counted by every protocol", "[counts]") {
-  LabelledScan scan = row_with({{40, false}, {252, false}, {99, false}});
-  scan.add(1.0f, 0.0f, 0.0f, 0);    // Unlabelled near the sensor: the ego vehicle.
-  scan.add(60.0f, 0.0f, 0.0f, 40);  // Out of range.
-  scan.add(61.0f, 0.0f, 0.0f, 252, true);
-  const MemorySequence sequence({scan});
-  EvaluationInput input = sequence.input();
-  input.range_m = {0.0, 50.0};
-  input.label_rule.ignored = {99};
-  for (const char* protocol : {"dynamicmap", "dynamicmap-strict"}) {
-    CAPTURE(protocol);
-    const ProtocolResult result = score_by(protocol, input, sequence.masks());
-    CHECK(result.count("out_of_range_points") == 2);
-    CHECK(result.count("ignored_points") == 1);
-    CHECK(result.count("ego_points") == 1);
-  }
-  const ProtocolResult points = score_by("dynamicmap", input, sequence.masks());
-  // Those out of range are neither kept nor flagged.
-  CHECK(points.count("kept_static_points") == 1);
-  CHECK(points.count("flagged_dynamic_points") == 0);
-  CHECK(points.count("static_points") == 1);
-  CHECK(points.count("dynamic_points") == 2);
-}
-
-TEST_CASE("counts are summed over scans", "[counts]") {
+TEST_CASE("counts are summed over scans, and dropped points are on neither side", "[counts]") {
   LabelledScan scan = row_with({{40, false}, {258, true}, {99, false}});
-  scan.add(1.0f, 0.0f, 0.0f, 0);
-  scan.add(60.0f, 0.0f, 0.0f, 40);
+  scan.add(1.0f, 0.0f, 0.0f, 0);    // Unlabelled near the sensor: the ego vehicle.
+  scan.add(60.0f, 0.0f, 0.0f, 40);  // Out of range: neither kept nor flagged.
+  scan.add(61.0f, 0.0f, 0.0f, 252, true);
   const MemorySequence sequence({scan, scan, row_with({{40, false}})});
   EvaluationInput input = sequence.input();
   input.range_m = {0.0, 50.0};
   input.label_rule.ignored = {99};
   const ProtocolResult points = score_by("dynamicmap", input, sequence.masks());
   CHECK(points.count("ego_points") == 2);
-  CHECK(points.count("out_of_range_points") == 2);
+  CHECK(points.count("out_of_range_points") == 4);
   CHECK(points.count("ignored_points") == 2);
   CHECK(points.count("static_points") == 3);
   CHECK(points.count("dynamic_points") == 4);
@@ -100,11 +77,16 @@ TEST_CASE("counts are summed over scans", "[counts]") {
   CHECK(points.count("flagged_dynamic_points") == 2);
   const ProtocolResult voxels = score_by("erasor", input, sequence.masks());
   CHECK(voxels.count("cropped_points") == 2);
-  CHECK(voxels.count("out_of_range_points") == 2);
+  CHECK(voxels.count("out_of_range_points") == 4);
   CHECK(voxels.count("ignored_points") == 2);
   CHECK(voxels.count("evaluated_points") == 5);
   CHECK(voxels.count("removed_points") == 2);
-  CHECK(score_by("dynamicmap-strict", input, sequence.masks()).count("ego_points") == 2);
+  CHECK(voxels.rate("PR") == 100.0);
+  CHECK(voxels.rate("RR") == 100.0);
+  const ProtocolResult strict = score_by("dynamicmap-strict", input, sequence.masks());
+  CHECK(strict.count("ego_points") == 2);
+  CHECK(strict.count("out_of_range_points") == 4);
+  CHECK(strict.count("ignored_points") == 2);
   // A last scan without a point left is no error.
   const MemorySequence far_end({row_with({{40, false}}), LabelledScan{}});
   CHECK(score_by("dynamicmap", far_end.input(), far_end.masks()).count("static_points") == 1);

@@ -14,13 +14,6 @@ namespace {
 
 using Catch::Contains;
 
-const Rate& rate_named(const ProtocolResult& result, const std::string& name) {
-  for (const Rate& rate : result.rates) {
-    if (rate.name == name) return rate;
-  }
-  throw InternalError("no rate " + name);
-}
-
 ProtocolResult score_scan(const LabelledScan& scan, const Settings& settings = {},
                           const std::string& protocol = "dynamicmap") {
   const MemorySequence sequence({scan});
@@ -119,15 +112,6 @@ TEST_CASE("a point at exactly the distance is present, one beyond is gone", "[dy
   CHECK(result.count("present_static_points") == 2);
   CHECK(result.count("removed_dynamic_points") == 0);
   CHECK(score_scan(scan, {{"distance", 0.0}}).count("present_static_points") == 1);
-}
-
-TEST_CASE("a distance of metres reaches as far as it says", "[dynamicmap]") {
-  LabelledScan scan;
-  scan.add(8.0f, 0.0f, 0.0f, 40);
-  scan.add(10.9375f, 0.0f, 0.0f, 40, true);
-  scan.add(8.0f, -3.0f, 0.0f, 40, true);
-  scan.add(8.0f, 3.0625f, 0.0f, 40, true);
-  CHECK(score_scan(scan, {{"distance", 3.0}}).count("present_static_points") == 3);
 }
 
 TEST_CASE("ignored points are in no denominator, but may stand in the map", "[dynamicmap]") {
@@ -268,18 +252,7 @@ TEST_CASE("controls, threads and the order of points, by points and by cells", "
   EvaluationInput input = input_of(sequence);
   std::vector<LabelledScan> scans = sequence.scans();
   std::mt19937 random(7);
-  for (LabelledScan& scan : scans) {
-    LabelledScan shuffled;
-    shuffled.pose = scan.pose;
-    std::vector<std::size_t> order(scan.points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::shuffle(order.begin(), order.end(), random);
-    for (const std::size_t i : order) {
-      const Eigen::Vector3f& p = scan.points[i];
-      shuffled.add(p.x(), p.y(), p.z(), scan.labels[i], scan.mask[i] != 0);
-    }
-    scan = shuffled;
-  }
+  for (LabelledScan& scan : scans) scan = shuffled(scan, random);
   std::reverse(scans.begin(), scans.end());
   const MemorySequence other(scans);
   for (const char* protocol : {"dynamicmap", "dynamicmap-strict"}) {

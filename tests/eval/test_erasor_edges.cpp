@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "eval/points/cloud_masks.h"
+#include "tests/datasets/temporary_folder.h"
 #include "tests/eval/memory_sequence.h"
 
 namespace raymoval::test {
@@ -29,23 +30,6 @@ ProtocolResult score_row(const std::vector<std::pair<std::uint32_t, bool>>& poin
   return score_erasor(sequence.input(), sequence.masks(), settings);
 }
 
-const Rate& edge_rate(const ProtocolResult& result, const std::string& name) {
-  for (const Rate& rate : result.rates) {
-    if (rate.name == name) return rate;
-  }
-  throw InternalError("no rate " + name);
-}
-
-template <class Exception, class Call>
-std::string message_of(Call&& call) {
-  try {
-    call();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 }  // namespace
 
 TEST_CASE("nothing dynamic: RR and F1 are undefined, PR is not", "[erasor][edge]") {
@@ -53,9 +37,9 @@ TEST_CASE("nothing dynamic: RR and F1 are undefined, PR is not", "[erasor][edge]
   CHECK(result.rate("PR").value() == Approx(200.0 / 3));
   CHECK_FALSE(result.rate("RR").has_value());
   CHECK_FALSE(result.rate("F1").has_value());
-  CHECK_THAT(edge_rate(result, "RR").undefined_reason, Contains("no dynamic voxel"));
-  CHECK_THAT(edge_rate(result, "F1").undefined_reason, Contains("no dynamic voxel"));
-  CHECK(edge_rate(result, "PR").undefined_reason.empty());
+  CHECK_THAT(rate_named(result, "RR").undefined_reason, Contains("no dynamic voxel"));
+  CHECK_THAT(rate_named(result, "F1").undefined_reason, Contains("no dynamic voxel"));
+  CHECK(rate_named(result, "PR").undefined_reason.empty());
 }
 
 TEST_CASE("nothing static: PR and F1 are undefined, RR is not", "[erasor][edge]") {
@@ -63,7 +47,7 @@ TEST_CASE("nothing static: PR and F1 are undefined, RR is not", "[erasor][edge]"
   CHECK_FALSE(result.rate("PR").has_value());
   CHECK(result.rate("RR") == 50.0);
   CHECK_FALSE(result.rate("F1").has_value());
-  CHECK_THAT(edge_rate(result, "F1").undefined_reason, Contains("no static voxel"));
+  CHECK_THAT(rate_named(result, "F1").undefined_reason, Contains("no static voxel"));
 }
 
 TEST_CASE("an empty estimate scores 0, 100, 0 with a warning", "[erasor][edge]") {
@@ -93,26 +77,6 @@ TEST_CASE("no truth is an error that says where the points went", "[erasor][edge
                           Contains("1 lie too near"));
   const MemorySequence empty(std::vector<LabelledScan>{});
   CHECK_THROWS_AS(score_erasor(empty.input(), empty.masks()), DataError);
-}
-
-TEST_CASE("dropped points count on neither side", "[erasor][edge]") {
-  // Flags on dropped points change nothing.
-  LabelledScan scan = row_of({{40, false}, {252, true}});
-  scan.add(1.0f, 0.0f, 0.0f, 252, false);
-  scan.add(10.0f, 3.0f, 0.0f, 99, false);
-  scan.add(60.0f, 0.0f, 0.0f, 40, true);
-  const MemorySequence sequence({scan});
-  EvaluationInput input = sequence.input();
-  input.range_m = {0.0, 50.0};
-  input.label_rule.ignored = {99};
-  const ProtocolResult result = score_erasor(input, sequence.masks());
-  CHECK(result.rate("PR") == 100.0);
-  CHECK(result.rate("RR") == 100.0);
-  CHECK(result.count("evaluated_points") == 2);
-  CHECK(result.count("removed_points") == 1);
-  CHECK(result.count("cropped_points") == 1);
-  CHECK(result.count("ignored_points") == 1);
-  CHECK(result.count("out_of_range_points") == 1);
 }
 
 TEST_CASE("a mask that does not fit its scan is the method's error", "[erasor][edge]") {

@@ -148,18 +148,8 @@ TEST_CASE("the order of points within a scan does not matter without ties", "[er
   shape.points = 4000;
   shape.extent = 0.7f;
   const MemorySequence sequence = random_sequence(shape);
-  std::vector<LabelledScan> scans = sequence.scans();
-  LabelledScan shuffled;
-  shuffled.pose = scans[0].pose;
-  std::vector<std::size_t> order(scans[0].points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::mt19937 random(7);
-  std::shuffle(order.begin(), order.end(), random);
-  for (const std::size_t i : order) {
-    const Eigen::Vector3f& p = scans[0].points[i];
-    shuffled.add(p.x(), p.y(), p.z(), scans[0].labels[i], scans[0].mask[i] != 0);
-  }
-  const MemorySequence other({shuffled});
+  const MemorySequence other({shuffled(sequence.scans().front(), random)});
   const ProtocolResult before = score_erasor(sequence.input(), sequence.masks(), settings);
   REQUIRE(before.count("mixed_label_ties") == 0);
   REQUIRE(before.count("estimate_mixed_label_ties") == 0);

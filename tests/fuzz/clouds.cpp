@@ -9,6 +9,7 @@
 #include "tests/datasets/written_cloud.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
+#include "tests/methods/held_scans.h"
 
 namespace raymoval::fuzz {
 namespace {
@@ -60,25 +61,19 @@ void try_cloud(const std::string& name, std::string_view bytes) {
 }
 
 /// A scan of a point per label, save that the file may be a few bytes too long.
-class OneScan : public ScanSource {
+class OneScan : public toy::HeldScans {
  public:
   explicit OneScan(std::size_t stored) {
-    scan_.name = "000000";
-    scan_.stored_point_count = stored;
+    Scan scan;
+    scan.name = "000000";
     // Every third point of the file is not finite, and so no point of the scan.
     for (std::size_t i = 0; i < stored; ++i) {
-      if (i % 3 != 2) scan_.stored_index.push_back(static_cast<std::uint32_t>(i));
+      if (i % 3 != 2) scan.stored_index.push_back(static_cast<std::uint32_t>(i));
     }
-    scan_.points.resize(scan_.stored_index.size(), Eigen::Vector3f::Zero());
+    scan.points.resize(scan.stored_index.size(), Eigen::Vector3f::Zero());
+    add_scan(std::move(scan));
+    scans_[0].stored_point_count = stored;
   }
-  [[nodiscard]] std::size_t size() const override { return 1; }
-  [[nodiscard]] Scan load(std::size_t) const override { return scan_; }
-  [[nodiscard]] Pose pose(std::size_t) const override { return Pose::Identity(); }
-  [[nodiscard]] const SensorModel& sensor() const override { return sensor_; }
-
- private:
-  Scan scan_;
-  SensorModel sensor_;
 };
 
 RAYMOVAL_FUZZ_TARGET(bin) {

@@ -22,7 +22,8 @@ void check_poses(const PoseFile& file) {
     require(i == 0 || !file.stamped() || *file.rows[i].stamp >= *file.rows[i - 1].stamp,
             "times of poses run backwards");
   }
-  if (file.stamped()) may_refuse([&] { (void)trajectory_of(file); });
+  std::vector<std::string> notes;
+  if (file.stamped()) may_refuse([&] { (void)Trajectory(stamped_poses(file, notes)); });
 }
 
 /// The first byte chooses a format that the user says, or none, and the name of the file.

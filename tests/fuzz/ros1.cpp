@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "datasets/bags/bag_formats.h"
+#include "datasets/bags/bag_index.h"
 #include "datasets/bags/messages/point_cloud.h"
 #include "datasets/bags/messages/pose_messages.h"
-#include "datasets/bags/ros1/ros1_bag.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/target.h"
 
@@ -15,20 +16,20 @@ namespace {
 
 RAYMOVAL_FUZZ_TARGET(bag_ros1) {
   may_refuse([&] {
-    const Ros1Bag bag(input_file("drive.bag", bytes));
-    for (std::size_t topic = 0; topic < bag.topics().size(); ++topic) {
-      const std::uint64_t count = bag.topics()[topic].messages;
+    const auto bag = open_ros1(input_file("drive.bag", bytes));
+    for (std::size_t topic = 0; topic < bag->topics().size(); ++topic) {
+      const std::uint64_t count = bag->topics()[topic].messages;
       for (std::uint64_t i = 0; i < std::min<std::uint64_t>(count, 100); ++i) {
-        require(i == 0 || bag.recorded(topic, i) >= bag.recorded(topic, i - 1),
+        require(i == 0 || bag->recorded(topic, i) >= bag->recorded(topic, i - 1),
                 "messages are not in the order of their times");
         may_refuse([&] {
-          const std::string message = bag.message(topic, i);
-          require(message.starts_with(bag.message_head(topic, i, 16)),
+          const std::string message = bag->message(topic, i);
+          require(message.starts_with(bag->message_head(topic, i, 16)),
                   "a message has another beginning");
         });
       }
     }
-    require(bag.damage().size() <= DamageNotes::kMost + 1, "there are too many notes on damage");
+    require(bag->damage().size() <= DamageNotes::kMost + 1, "there are too many notes on damage");
   });
 }
 

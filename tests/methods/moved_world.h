@@ -15,25 +15,6 @@ inline void coarsen_octomap(ConfiguredMethod& method) {
   set_parameter(method.configuration, "resolution", 0.2);
 }
 
-/// The scans of another source with the world moved: poses become `motion * pose`, points stay as
-/// they are in the sensor frame.
-class MovedWorld : public ScanSource {
- public:
-  MovedWorld(const ScanSource& scans, const Pose& motion) : scans_(scans), motion_(motion) {}
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t i) const override {
-    Scan scan = scans_.load(i);
-    scan.T_world_sensor = motion_ * scan.T_world_sensor;
-    return scan;
-  }
-  [[nodiscard]] Pose pose(std::size_t i) const override { return motion_ * scans_.pose(i); }
-  [[nodiscard]] const SensorModel& sensor() const override { return scans_.sensor(); }
-
- private:
-  const ScanSource& scans_;
-  Pose motion_;
-};
-
 /// Moves the world by (x, y, z) metres after a turn by `quarters` times 90 degrees about z. The
 /// turn's matrix is exact.
 inline Pose whole_motion(double x, double y, double z, int quarters) {
@@ -80,11 +61,14 @@ inline std::size_t different_verdicts(const MaskStore& a, const MaskStore& b, st
   return differences;
 }
 
-/// Number of points whose verdict changes when the world is moved by `motion`.
+/// Number of points whose verdict changes when the world is moved by `motion`: poses become
+/// `motion * pose`, points stay as they are in the sensor frame.
 inline std::size_t verdicts_changed_by(const Pose& motion, const ConfiguredMethod& method,
                                        const ScanSource& scans) {
   const MaskStore here = masks_of(*method.make(), scans);
-  const MaskStore there = masks_of(*method.make(), MovedWorld(scans, motion));
+  const ChangedScans moved(scans,
+                           [&](Scan& scan) { scan.T_world_sensor = motion * scan.T_world_sensor; });
+  const MaskStore there = masks_of(*method.make(), moved);
   return different_verdicts(here, there, scans.size());
 }
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/mcap/mcap_bag.h"
-
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
-#include "datasets/bags/bag_file.h"
+#include "datasets/bags/bag_formats.h"
+#include "datasets/bags/bag_index.h"
+#include "datasets/bags/decompress.h"
+#include "datasets/bags/mcap/mcap_file.h"
 
 namespace raymoval {
 namespace {
@@ -29,6 +35,23 @@ Nanoseconds mcap_time(std::uint64_t time) {
   return static_cast<Nanoseconds>(std::min(time, static_cast<std::uint64_t>(kLast)));
 }
 
+/// The place of a message in a MCAP file, as one number that increases along the chunks.
+struct McapMessagePlace {
+  /// The value of `chunk` for a message outside chunks. Such places come behind all others.
+  static constexpr std::uint64_t kNoChunk = std::uint64_t{1} << 31;
+  std::uint64_t chunk = kNoChunk;  ///< Number of the chunk in `McapContents::chunks`.
+  std::uint64_t offset = 0;        ///< In the decompressed chunk, or in the file.
+
+  [[nodiscard]] std::uint64_t number() const;
+  static McapMessagePlace of(std::uint64_t number);
+};
+
+/// The contents of a MCAP file, without its messages.
+struct McapContents {
+  std::vector<std::uint64_t> chunks;            ///< Where the record of each chunk begins.
+  std::map<std::uint16_t, std::size_t> topics;  ///< Topic of each channel.
+};
+
 /// Whether the file ends with a footer. A truncated file does not.
 bool has_footer(const McapFile& file) {
   const BagFile& bytes = file.bytes();
@@ -46,7 +69,9 @@ struct McapDirectory {
   std::optional<std::uint64_t> messages;           ///< By the statistics, if they have it.
 };
 
-/// Fills the contents and reports unreadable parts.
+/// Reads the contents of a MCAP file. If its summary and message indexes are whole and fit the
+/// statistics, these are used. Else the file is read from front to back and each chunk is
+/// decompressed once. Unreadable parts become sentences in `damage`.
 class McapReader {
  public:
   McapReader(const McapFile& file, DamageNotes& damage) : file_(file), damage_(damage) {
@@ -54,14 +79,17 @@ class McapReader {
     most_messages_ = file.bytes().size() / 2 + 65536;
   }
 
-  McapContents read() {
+  /// @param messages gets them; places are those of `McapMessagePlace`
+  McapContents read(MessageTable& messages) {
     if (!damage_in([&] { read_summary(); }).empty()) known_ = {};
     if (!if_whole([&] { return use_indexes(); }).value_or(false)) {
       contents_ = {};
+      table_ = {};
       read_front_to_back();
     }
     for (const auto& [id, channel] : known_.channels) topic(channel);
-    contents_.messages.finish();
+    table_.finish();
+    messages = std::move(table_);
     return std::move(contents_);
   }
 
@@ -128,18 +156,17 @@ class McapReader {
     if (known != contents_.topics.end()) return known->second;
     const auto schema = known_.schemas.find(channel.schema);
     const std::string type = schema == known_.schemas.end() ? "" : ros1_type_name(schema->second);
-    const std::size_t topic =
-        contents_.messages.topic(channel.topic, type, encoding_of(channel.encoding));
+    const std::size_t topic = table_.topic(channel.topic, type, encoding_of(channel.encoding));
     contents_.topics.emplace(channel.id, topic);
     return topic;
   }
 
   void add(std::size_t topic, std::uint64_t log_time, const McapMessagePlace& place) {
-    if (contents_.messages.size() >= most_messages_) {
+    if (table_.size() >= most_messages_) {
       throw DataError(name() + ": has more than " + grouped_text(most_messages_) +
                       " messages, which cannot be in so few bytes; the file is damaged.");
     }
-    contents_.messages.add(topic, {mcap_time(log_time), place.number()});
+    table_.add(topic, {mcap_time(log_time), place.number()});
   }
 
   // --- From the message indexes ---
@@ -157,7 +184,7 @@ class McapReader {
         if (!use_index(file_.record(place), channel, size)) return false;
       }
     }
-    return *known_.messages == contents_.messages.size();
+    return *known_.messages == table_.size();
   }
 
   bool use_index(const McapPlace& record, std::uint16_t id, std::uint64_t chunk_size) {
@@ -193,7 +220,7 @@ class McapReader {
                   " without the footer of a MCAP file: it is truncated, or its recorder was "
                   "stopped; everything before it is read.");
     }
-    const std::uint64_t found = contents_.messages.size();
+    const std::uint64_t found = table_.size();
     if (damage_.empty() && known_.messages && *known_.messages != found) {
       damage_.add(name() + ": should have " + counted_text(*known_.messages, "message") +
                   " by its statistics, and has " + grouped_text(found) + ".");
@@ -258,9 +285,8 @@ class McapReader {
   bool has_end_ = false;
   McapDirectory known_;
   McapContents contents_;
+  MessageTable table_;
 };
-
-}  // namespace
 
 std::uint64_t McapMessagePlace::number() const {
   return chunk == kNoChunk ? kNoChunkBit | offset : chunk << kOffsetBits | offset;
@@ -271,16 +297,30 @@ McapMessagePlace McapMessagePlace::of(std::uint64_t number) {
   return {number >> kOffsetBits, number & ((std::uint64_t{1} << kOffsetBits) - 1)};
 }
 
-McapContents read_contents(const McapFile& file, DamageNotes& damage) {
-  return McapReader(file, damage).read();
-}
+/// A recording in a MCAP file.
+class McapBag : public IndexedBag {
+ public:
+  /// @throws DataError if it is no MCAP file; UnreadableError
+  explicit McapBag(const std::filesystem::path& path)
+      : file_(path), contents_(McapReader(file_, damage_).read(table_)) {}
 
-std::string McapBag::message(std::size_t topic, std::size_t index) const {
-  return message_head(topic, index, std::numeric_limits<std::size_t>::max());
-}
+  [[nodiscard]] const std::filesystem::path& path() const override { return file_.bytes().path(); }
+  [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
+                                         std::size_t most) const override;
+
+ private:
+  /// The first `most` bytes of the content of a message's record outside compressed chunks.
+  [[nodiscard]] std::string in_file(const McapPlace& record, std::size_t most) const;
+  [[nodiscard]] std::string in_chunk(const McapChunkPlace& chunk,
+                                     const McapMessagePlace& place) const;
+
+  McapFile file_;
+  McapContents contents_;
+  mutable ChunkStore chunks_;
+};
 
 std::string McapBag::message_head(std::size_t topic, std::size_t index, std::size_t most) const {
-  const MessageTable::Message& message = contents_.messages.at(topic, index);
+  const MessageTable::Message& message = table_.at(topic, index);
   const McapMessagePlace place = McapMessagePlace::of(message.place);
   const bool is_alone = place.chunk == McapMessagePlace::kNoChunk;
   const McapPlace record = file_.record(is_alone ? place.offset : contents_.chunks[place.chunk]);
@@ -331,6 +371,12 @@ std::string McapBag::in_chunk(const McapChunkPlace& chunk, const McapMessagePlac
                                          " in it is incomplete"
                                    : problem) +
                   "; the file is damaged. Copy it again.");
+}
+
+}  // namespace
+
+std::unique_ptr<Bag> open_mcap(const std::filesystem::path& path) {
+  return std::make_unique<McapBag>(path);
 }
 
 }  // namespace raymoval

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/ros1/ros1_bag.h"
-
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/text.h"
+#include "datasets/bags/bag_file.h"
+#include "datasets/bags/bag_formats.h"
+#include "datasets/bags/bag_index.h"
+#include "datasets/bags/decompress.h"
+#include "datasets/bags/ros1/ros1_file.h"
 
 namespace raymoval {
 namespace {
@@ -19,22 +28,45 @@ constexpr std::uint64_t kEntryBytes = 12;
 constexpr std::uint64_t kCountBytes = 8;
 constexpr std::uint32_t kIndexVersion = 1;
 
-/// Fills the contents and reports unreadable parts.
+/// The contents of a ROS 1 bag, without its messages.
+struct Ros1Contents {
+  std::map<std::uint32_t, std::size_t> topics;  ///< Topic of each connection.
+  std::vector<Ros1Chunk> chunks;                ///< In the order of the file.
+};
+
+/// A message's chunk and its byte there in one number, which increases along the file. A chunk
+/// decompresses to less than 4 GiB because its size has 32 bits.
+constexpr std::uint64_t message_place(std::size_t chunk, std::uint64_t offset) {
+  return (static_cast<std::uint64_t>(chunk) << 32U) | offset;
+}
+constexpr std::size_t chunk_of(std::uint64_t place) {
+  return static_cast<std::size_t>(place >> 32U);
+}
+constexpr std::uint64_t offset_of(std::uint64_t place) {
+  return place & 0xFFFFFFFFU;
+}
+
+/// Reads the contents of a bag. If its index is whole and fits the chunks, it is used. Else the
+/// chunks are read from front to back up to the end of the file. Unreadable parts become sentences
+/// in `notes`.
 class Ros1Reader {
  public:
   Ros1Reader(const BagFile& file, DamageNotes& notes)
       : file_(file), name_(file.path().filename().string()), bytes_(file), notes_(notes) {}
 
-  Ros1Contents read() {
+  /// @param messages gets them; places are those of `message_place`
+  Ros1Contents read(MessageTable& messages) {
     read_header();
     const std::string problem = index_problem();
     if (!problem.empty()) {
       notes_.add(name_ + ": " + problem +
                  " It is read from front to back; `rosbag reindex` repairs it.");
       contents_ = {};
+      table_ = {};
       read_front_to_back();
     }
-    contents_.messages.finish();
+    table_.finish();
+    messages = std::move(table_);
     return std::move(contents_);
   }
 
@@ -60,11 +92,11 @@ class Ros1Reader {
   void add_connection(const Ros1Connection& connection) {
     const auto [known, is_new] = contents_.topics.try_emplace(connection.id, 0);
     if (is_new) {
-      known->second = contents_.messages.topic(connection.topic, connection.type,
-                                               MessageEncoding::kRos1, connection.md5);
+      known->second =
+          table_.topic(connection.topic, connection.type, MessageEncoding::kRos1, connection.md5);
       return;
     }
-    const BagTopic& topic = contents_.messages.topics()[known->second];
+    const BagTopic& topic = table_.topics()[known->second];
     if (topic.name == connection.topic && topic.type == connection.type) return;
     notes_.add(name_ + ": connection " + std::to_string(connection.id) + " is both of " +
                topic.name + " and of " + connection.topic + "; the first is used.");
@@ -152,8 +184,8 @@ class Ros1Reader {
       if (offset >= chunk.size) {
         throw DataError(record.where + ": a message behind the end of its chunk.");
       }
-      contents_.messages.add(topic->second, {ros1_time(data, i * kEntryBytes),
-                                             message_place(contents_.chunks.size() - 1, offset)});
+      table_.add(topic->second, {ros1_time(data, i * kEntryBytes),
+                                 message_place(contents_.chunks.size() - 1, offset)});
     }
     return count;
   }
@@ -225,7 +257,7 @@ class Ros1Reader {
         continue;
       }
       // A small file that decompresses to very many small messages would fill the memory.
-      if (contents_.messages.size() > file_.size()) {
+      if (table_.size() > file_.size()) {
         throw DataError(found->where +
                         ": the bag decompresses to more messages than it has bytes.");
       }
@@ -236,9 +268,8 @@ class Ros1Reader {
                    ", which the bag does not describe, is left out.");
         continue;
       }
-      contents_.messages.add(
-          topic->second,
-          {found->time("time"), message_place(contents_.chunks.size() - 1, found->begin)});
+      table_.add(topic->second,
+                 {found->time("time"), message_place(contents_.chunks.size() - 1, found->begin)});
       ++count;
     }
     return count;
@@ -256,19 +287,32 @@ class Ros1Reader {
   std::uint32_t connections_ = 0, chunks_ = 0;     ///< Of the bag's header record.
   std::map<std::uint64_t, std::uint64_t> places_;  ///< Where chunks begin, and their messages.
   Ros1Contents contents_;
+  MessageTable table_;
 };
 
-}  // namespace
+/// A ROS 1 bag of version 2.0, not compressed or compressed by bz2 or lz4. A whole index is used; a
+/// bag that was truncated or never closed is read from front to back when it is opened. Memory
+/// holds 16 bytes per message and the chunks that were decompressed last.
+class Ros1Bag : public IndexedBag {
+ public:
+  explicit Ros1Bag(const std::filesystem::path& path)
+      : file_(path), contents_(Ros1Reader(file_, damage_).read(table_)) {}
 
-Ros1Contents read_contents(const BagFile& file, DamageNotes& notes) {
-  return Ros1Reader(file, notes).read();
-}
+  [[nodiscard]] const std::filesystem::path& path() const override { return file_.path(); }
+  [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
+                                         std::size_t most) const override;
 
-Ros1Bag::Ros1Bag(const std::filesystem::path& path)
-    : file_(path), contents_(read_contents(file_, notes_)) {}
+ private:
+  std::string read_from(const Ros1Bytes& chunk, std::uint64_t offset, std::size_t topic,
+                        std::size_t most) const;
 
-std::string Ros1Bag::read_message(std::size_t topic, std::size_t index, std::size_t most) const {
-  const std::uint64_t place = contents_.messages.at(topic, index).place;
+  BagFile file_;
+  mutable ChunkStore unpacked_;
+  Ros1Contents contents_;
+};
+
+std::string Ros1Bag::message_head(std::size_t topic, std::size_t index, std::size_t most) const {
+  const std::uint64_t place = table_.at(topic, index).place;
   const Ros1Chunk& chunk = contents_.chunks[chunk_of(place)];
   if (chunk.compression == Ros1Compression::kNone) {
     return read_from(Ros1Bytes(file_, chunk.data_begin, chunk.packed), offset_of(place), topic,
@@ -278,8 +322,8 @@ std::string Ros1Bag::read_message(std::size_t topic, std::size_t index, std::siz
   const ChunkStore::Chunk unpacked = unpacked_.get(chunk_of(place), [&] {
     Decompressed all = decompress_chunk(file_, chunk);
     if (!all.problem.empty()) {
-      notes_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") + " (" + all.problem +
-                 ").");
+      damage_.add(where + " is " + (chunk.cut ? "truncated" : "damaged") + " (" + all.problem +
+                  ").");
     }
     return std::move(all.bytes);
   });
@@ -305,12 +349,10 @@ std::string Ros1Bag::read_from(const Ros1Bytes& chunk, std::uint64_t offset, std
   return chunk.read(found->data_begin, std::min<std::uint64_t>(most, found->data_size));
 }
 
-std::string Ros1Bag::message(std::size_t topic, std::size_t index) const {
-  return read_message(topic, index, std::numeric_limits<std::size_t>::max());
-}
+}  // namespace
 
-std::string Ros1Bag::message_head(std::size_t topic, std::size_t index, std::size_t most) const {
-  return read_message(topic, index, most);
+std::unique_ptr<Bag> open_ros1(const std::filesystem::path& path) {
+  return std::make_unique<Ros1Bag>(path);
 }
 
 }  // namespace raymoval

@@ -157,10 +157,6 @@ Ros1Connection read_connection(const Ros1Bytes& bytes, const Ros1Record& record)
           find_field(fields, "md5sum", record.where).value_or("")};
 }
 
-std::string_view ros1_compression_name(Ros1Compression compression) {
-  return kCompressionNames[static_cast<std::size_t>(compression)];
-}
-
 Ros1Chunk read_chunk(const Ros1Bytes& file, const Ros1Record& record) {
   const std::string name = record.text("compression");
   const auto known = std::find(kCompressionNames.begin(), kCompressionNames.end(), name);

@@ -109,9 +109,6 @@ Ros1Connection read_connection(const Ros1Bytes& bytes, const Ros1Record& record)
 /// The compression of a chunk.
 enum class Ros1Compression : std::uint8_t { kNone, kBz2, kLz4 };
 
-/// "none", "bz2" or "lz4", as in a chunk's header.
-std::string_view ros1_compression_name(Ros1Compression compression);
-
 /// A chunk of a ROS 1 bag: messages and connections, compressed together.
 struct Ros1Chunk {
   std::uint64_t begin = 0;       ///< Place of its record in the file.

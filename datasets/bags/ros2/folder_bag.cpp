@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "datasets/bags/ros2/folder_bag.h"
-
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cstdint>
+#include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "datasets/bags/bag_formats.h"
+#include "datasets/bags/bag_index.h"
 #include "datasets/bags/decompress.h"
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/clouds/frames.h"
@@ -21,6 +26,23 @@ namespace raymoval {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A file of a recording as metadata.yaml lists it.
+struct Ros2File {
+  std::string listed;          ///< As written there.
+  std::filesystem::path path;  ///< Where it is, in the recording's folder.
+  bool is_there = false;
+  std::optional<std::uint64_t> messages;  ///< The stated number, if there is one.
+};
+
+/// The content of metadata.yaml, versions 1 to 9.
+struct Ros2Metadata {
+  std::filesystem::path path;
+  int version = 0;
+  std::optional<std::uint64_t> messages;
+  std::vector<Ros2File> files;     ///< In order, each once.
+  std::vector<std::string> twice;  ///< Files that are listed more than once.
+};
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{16} << 20;
 constexpr int kLastVersion = 9;
@@ -162,8 +184,8 @@ Ros2Metadata parsed_metadata(const fs::path& path) {
   return metadata;
 }
 
-}  // namespace
-
+/// @throws DataError naming the line that is wrong; UsageError for a storage or a compression that
+///   is not supported; UnreadableError
 Ros2Metadata read_ros2_metadata(const fs::path& folder) {
   const fs::path path = folder / "metadata.yaml";
   if (plain_file_size(path) > kMostBytes) {
@@ -177,8 +199,6 @@ Ros2Metadata read_ros2_metadata(const fs::path& folder) {
   }
 }
 
-namespace {
-
 /// A message's place is the number of its part and its number in its topic there.
 constexpr unsigned kIndexBits = 44;
 constexpr std::size_t kMostParts = std::size_t{1} << (63 - kIndexBits);
@@ -186,28 +206,6 @@ constexpr std::size_t kMostParts = std::size_t{1} << (63 - kIndexBits);
 std::uint64_t place_of(std::size_t part, std::size_t index) {
   return std::uint64_t{part} << kIndexBits | index;
 }
-
-}  // namespace
-
-std::vector<fs::path> split_recording(const fs::path& folder) {
-  std::vector<fs::path> parts;
-  std::set<std::string> names;
-  if (!folders_in(folder).empty()) return {};
-  for (const fs::path& file : list_files(folder, {""})) {
-    const fs::path name = without_zstd_ending(file.filename());
-    const std::string ending = name.extension().string();
-    if (ending == ".bag" || !cloud_extension(file).empty()) return {};
-    if (ending != ".db3" && ending != ".mcap") continue;
-    std::string stem = name.stem().string();
-    const std::size_t number = stem.find_last_not_of("0123456789");
-    if (number != std::string::npos && stem[number] == '_') stem.resize(number);
-    names.insert(stem + ending);
-    parts.push_back(file);
-  }
-  return names.size() == 1 ? parts : std::vector<fs::path>();
-}
-
-namespace {
 
 Ros2Metadata metadata_of(const fs::path& folder) {
   if (has_file(folder / "metadata.yaml")) return read_ros2_metadata(folder);
@@ -219,9 +217,42 @@ Ros2Metadata metadata_of(const fs::path& folder) {
   return metadata;
 }
 
-}  // namespace
+/// A recording of ROS 2 in one file or several, in a folder with metadata.yaml, or without it as
+/// `split_recording`. Its index takes 32 bytes per message.
+class Ros2FolderBag : public IndexedBag {
+ public:
+  /// @throws DataError if metadata.yaml is damaged or none of its files is there; UsageError for a
+  ///   format that is not supported; UnreadableError
+  Ros2FolderBag(std::filesystem::path folder, const OpenBag& open);
 
-Ros2FolderBag::Ros2FolderBag(std::filesystem::path folder, const Open& open)
+  [[nodiscard]] const std::filesystem::path& path() const override { return folder_; }
+  [[nodiscard]] std::string message(std::size_t topic, std::size_t index) const override;
+  [[nodiscard]] std::string message_head(std::size_t topic, std::size_t index,
+                                         std::size_t most) const override;
+  [[nodiscard]] std::vector<std::string> damage() const override;
+
+ private:
+  /// A file of the recording that could be opened.
+  struct Part {
+    std::size_t file = 0;  ///< In `metadata().files`.
+    std::unique_ptr<Bag> bag;
+    std::vector<std::size_t> topics;  ///< Number in `topics()` of each topic of the part.
+  };
+  /// A message in the file that holds it.
+  struct Found {
+    const Bag& bag;
+    std::size_t topic, index;
+  };
+  [[nodiscard]] Found find(std::size_t topic, std::size_t index) const;
+  void add_part(std::size_t file, const OpenBag& open);
+  void check_counts();
+
+  std::filesystem::path folder_;
+  Ros2Metadata metadata_;
+  std::vector<Part> parts_;
+};
+
+Ros2FolderBag::Ros2FolderBag(std::filesystem::path folder, const OpenBag& open)
     : folder_(std::move(folder)), metadata_(metadata_of(folder_)) {
   for (const std::string& listed : metadata_.twice) {
     damage_.add(metadata_.path.string() + ": lists " + listed + " twice; it is read once.");
@@ -238,7 +269,7 @@ Ros2FolderBag::Ros2FolderBag(std::filesystem::path folder, const Open& open)
   check_counts();
 }
 
-void Ros2FolderBag::add_part(std::size_t file, const Open& open) {
+void Ros2FolderBag::add_part(std::size_t file, const OpenBag& open) {
   const Ros2File& listed = metadata_.files[file];
   if (!listed.is_there) {
     damage_.add(metadata_.path.string() + ": lists " + listed.listed +
@@ -311,6 +342,30 @@ std::vector<std::string> Ros2FolderBag::damage() const {
     for (const std::string& sentence : part.bag->damage()) all.add(sentence);
   }
   return all.sentences();
+}
+
+}  // namespace
+
+std::vector<fs::path> split_recording(const fs::path& folder) {
+  std::vector<fs::path> parts;
+  std::set<std::string> names;
+  if (!folders_in(folder).empty()) return {};
+  for (const fs::path& file : list_files(folder, {""})) {
+    const fs::path name = without_zstd_ending(file.filename());
+    const std::string ending = name.extension().string();
+    if (ending == ".bag" || !cloud_extension(file).empty()) return {};
+    if (ending != ".db3" && ending != ".mcap") continue;
+    std::string stem = name.stem().string();
+    const std::size_t number = stem.find_last_not_of("0123456789");
+    if (number != std::string::npos && stem[number] == '_') stem.resize(number);
+    names.insert(stem + ending);
+    parts.push_back(file);
+  }
+  return names.size() == 1 ? parts : std::vector<fs::path>();
+}
+
+std::unique_ptr<Bag> open_ros2_folder(const fs::path& folder, const OpenBag& open) {
+  return std::make_unique<Ros2FolderBag>(folder, open);
 }
 
 }  // namespace raymoval

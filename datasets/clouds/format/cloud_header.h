@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -110,5 +111,22 @@ Cloud header_cloud(const CloudHeader& header, const CloudBytes& file,
 /// and reals are rounded to nearest; padding is read if it is a number.
 /// @throws DataError as `header_cloud`, also for a number out of range of the field's type
 PointRecords header_records(const CloudHeader& header, const CloudBytes& file);
+
+/// A format of files with a header, without what is its own when it is written.
+/// @tparam parse the header of a file, from its bytes and its path
+template <class Encoder, CloudHeader (*parse)(std::string_view, const std::filesystem::path&)>
+CloudFormat header_format(const std::string& extension) {
+  CloudFormat format{extension};
+  format.read_cloud = [](const CloudBytes& file, const Eigen::Vector3d& origin) {
+    return header_cloud(parse(file.text, file.path), file, origin);
+  };
+  format.read_records = [](const CloudBytes& file) {
+    return header_records(parse(file.text, file.path), file);
+  };
+  format.encoder = [](const std::filesystem::path&) -> std::unique_ptr<RecordEncoder> {
+    return std::make_unique<Encoder>();
+  };
+  return format;
+}
 
 }  // namespace raymoval

@@ -52,7 +52,7 @@ void Samples::read_scans() {
     wanted.insert(pair.to);
   }
   for (const std::size_t scan : wanted) {
-    if (cancel_ != nullptr && cancel_->load()) throw Cancelled();
+    throw_if_cancelled(cancel_);
     Scan read = sequence_.scans->load(scan);
     if (!read.points.empty()) scans_.emplace(scan, std::move(read));
   }

@@ -230,7 +230,7 @@ void write_files(const SceneWriting& writing, const fs::path& folder) {
   Progress* progress = writing.progress;
   if (progress != nullptr) progress->begin("simulating " + sequence->name(), sequence->size());
   parallel_for(writing.threads, sequence->size(), 1, [&](std::size_t i) {
-    if (writing.cancel != nullptr && writing.cancel->load()) throw Cancelled();
+    throw_if_cancelled(writing.cancel);
     write_scan(*sequence, i, files);
     if (progress != nullptr) progress->advance();
   });
@@ -382,7 +382,7 @@ CachedScene scene_in(const fs::path& cache_root, simulated::SceneWriting writing
 void wait_for_turn(const CachedScene& scene, FileLock& lock) {
   bool told = false;
   while (lock.take(FileLock::Mode::kExclusive) == FileLock::State::kBusy) {
-    if (scene.writing.cancel != nullptr && scene.writing.cancel->load()) throw Cancelled();
+    throw_if_cancelled(scene.writing.cancel);
     if (!told) {
       scene.say("waiting for " + lock.holder() + ", which makes " + scene.folder.string());
     }

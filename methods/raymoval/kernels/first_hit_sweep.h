@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/simd/simd.h"
+#include "methods/raymoval/kernels/angular_grid.h"
 #include "methods/raymoval/kernels/occupancy_map.h"
-#include "methods/raymoval/kernels/wanted_bins.h"
 
 namespace raymoval::raymoval_method::sweep {
 

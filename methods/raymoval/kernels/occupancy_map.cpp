@@ -67,13 +67,4 @@ void OccupancyMap::update_boxes(int threads) {
   changed_.clear();
 }
 
-std::size_t OccupancyMap::memory_bytes() const {
-  const auto held = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-  constexpr std::size_t kBucket = 24;  // Of the hash grids: key, value and their book-keeping.
-  std::size_t bytes = held(bricks_) + held(places_) + held(boxes_) + held(changed_) + held(tiles_);
-  for (const auto& tile : tiles_) bytes += held(tile);
-  for (const auto& boxes : boxes_) bytes += held(boxes);
-  return bytes + (index_.bucket_count() + tile_index_.bucket_count()) * kBucket;
-}
-
 }  // namespace raymoval::raymoval_method

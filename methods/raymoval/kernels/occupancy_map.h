@@ -78,7 +78,7 @@ struct BrickPart {
 };
 
 /// Occupied voxels in sparse bricks of 8 x 8 x 8, one bit each. Insert, erase and look-up take
-/// constant time; memory grows with the occupied part only (`memory_bytes`).
+/// constant time; memory grows with the occupied part only.
 ///
 /// For the raycasting each brick also keeps boxes that cover its voxels, and each tile of 8 x 8
 /// bricks seen from above has a list of its bricks. `update_boxes` rebuilds the boxes of changed
@@ -164,9 +164,6 @@ class OccupancyMap {
     return found == tile_index_.end() ? std::span<const BrickHead>() : tiles_[found->second];
   }
   [[nodiscard]] std::span<const BrickHead> tile(std::size_t number) const { return tiles_[number]; }
-
-  /// The memory of everything that the map holds, spare capacity included.
-  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   struct Place {

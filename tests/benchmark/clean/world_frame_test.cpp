@@ -46,15 +46,6 @@ MaskStore masks_on(const Sequence& sequence, const MethodRequest& request) {
   return answer.masks;
 }
 
-std::size_t differences(const MaskStore& a, const MaskStore& b) {
-  std::size_t count = 0;
-  for (std::size_t scan = 0; scan < a.size(); ++scan) {
-    const Mask left = a.get(scan), right = b.get(scan);
-    for (std::size_t i = 0; i < left.size(); ++i) count += left[i] != right[i] ? 1 : 0;
-  }
-  return count;
-}
-
 std::size_t points_of(const MaskStore& masks) {
   std::size_t count = 0;
   for (std::size_t scan = 0; scan < masks.size(); ++scan) count += masks.point_count(scan);
@@ -96,11 +87,13 @@ TEST_CASE("no method is changed by a shift of the world, or an exchange of its a
   for (const MethodRequest& request : all_methods()) {
     INFO(request.name);
     const MaskStore here = masks_on(utm.street, request);
-    CHECK(differences(here, masks_on(utm.moved, request)) == 0);
+    CHECK(toy::different_verdicts(here, masks_on(utm.moved, request), here.size()) == 0);
     // Rounding of 1e-9 m may put single points into the neighbouring voxel.
-    CHECK(differences(here, masks_on(odd.moved, request)) <= points_of(here) / 10000);
+    CHECK(toy::different_verdicts(here, masks_on(odd.moved, request), here.size()) <=
+          points_of(here) / 10000);
     // The lattice is the same, except for rotations by 90 degrees about z.
-    CHECK(differences(here, masks_on(turned.moved, request)) <= points_of(here) / 1000);
+    CHECK(toy::different_verdicts(here, masks_on(turned.moved, request), here.size()) <=
+          points_of(here) / 1000);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "benchmark/run/runner.h"
 #include "methods/controls/controls.h"
 #include "tests/benchmark/comb.h"
+#include "tests/benchmark/small_suite.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -22,14 +23,9 @@ void run_comb(const std::filesystem::path& out, std::size_t step) {
   comb.name = "comb";
   comb.make = [step](const Configuration&) { return std::make_unique<test::Comb>(step); };
   methods.add(comb);
-  Suite suite;
-  SequenceOptions options;
-  options.frames = parse_frame_range("0:1");
-  suite.sequences.push_back({"street", options});
+  Suite suite = test::small_suite("0:1");
   add_method(suite, "comb", "", methods);
-  add_protocol(suite, "erasor", "");
   add_controls(suite, methods);
-  suite.threads = 1;
   run_suite(suite, {.out = out});
 }
 

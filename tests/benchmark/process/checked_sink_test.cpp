@@ -31,14 +31,10 @@ TEST_CASE("The sink holds a method to one mask of the right size per scan") {
 namespace {
 
 /// A scan with one point every tenth of a second.
-class TenHertz : public test::TwoScans {
+class TenHertz : public toy::HeldScans {
  public:
-  [[nodiscard]] std::size_t size() const override { return 20; }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = TwoScans::load(1);
-    scan.index = index;
-    scan.time_s = 0.1 * static_cast<double>(index);
-    return scan;
+  TenHertz() {
+    for (int i = 0; i < 20; ++i) add({{1, 0, 0}});
   }
 };
 

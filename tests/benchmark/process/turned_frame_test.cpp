@@ -9,30 +9,11 @@
 #include "core/scan/local_frame.h"
 #include "datasets/open_sequence.h"
 #include "methods/registry.h"
+#include "tests/methods/moved_world.h"
 
 using namespace raymoval;
 
 namespace {
-
-/// The scans of the street with their points and poses in a turned frame.
-class TurnedScans : public ScanSource {
- public:
-  TurnedScans(const ScanSource& scans, const Eigen::Matrix3d& turn) : scans_(scans), turn_(turn) {}
-  [[nodiscard]] std::size_t size() const override { return scans_.size(); }
-  [[nodiscard]] Scan load(std::size_t index) const override {
-    Scan scan = scans_.load(index);
-    turn_sensor_frame(turn_, scan);
-    return scan;
-  }
-  [[nodiscard]] Pose pose(std::size_t index) const override {
-    return scans_.pose(index) * Pose(turn_.transpose());
-  }
-  [[nodiscard]] const SensorModel& sensor() const override { return scans_.sensor(); }
-
- private:
-  const ScanSource& scans_;
-  Eigen::Matrix3d turn_;
-};
 
 Sequence street() {
   SequenceOptions options;
@@ -50,19 +31,9 @@ MaskStore masks_of(const std::string& method, const Sequence& sequence) {
 
 MaskStore masks_in_frame(const std::string& method, Sequence sequence,
                          const Eigen::Matrix3d& turn) {
-  const auto upright = sequence.scans;  // Is read through by the turned scans.
-  sequence.opened = sequence.scans = std::make_shared<TurnedScans>(*upright, turn);
+  sequence.opened = sequence.scans = std::make_shared<toy::ChangedScans>(
+      sequence.scans, [&](Scan& scan) { turn_sensor_frame(turn, scan); });
   return masks_of(method, sequence);
-}
-
-std::size_t differences(const MaskStore& a, const MaskStore& b) {
-  std::size_t count = 0;
-  for (std::size_t scan = 0; scan < a.size(); ++scan) {
-    const Mask left = a.get(scan), right = b.get(scan);
-    REQUIRE(left.size() == right.size());
-    for (std::size_t i = 0; i < left.size(); ++i) count += left[i] != right[i] ? 1 : 0;
-  }
-  return count;
 }
 
 }  // namespace
@@ -75,7 +46,7 @@ TEST_CASE("an exchange of the axes of points changes no verdict", "[frames]") {
     INFO(method);
     const MaskStore here = masks_of(method, sequence);
     CHECK(here.removed_count() > 100);
-    CHECK(differences(here, masks_in_frame(method, sequence, turn)) == 0);
+    CHECK(toy::different_verdicts(here, masks_in_frame(method, sequence, turn), here.size()) == 0);
   }
 }
 
@@ -90,8 +61,8 @@ TEST_CASE("any frame of the points gives nearly the same verdicts", "[frames][sl
       const Eigen::Quaterniond turn = Eigen::Quaterniond(w, x, y, z).normalized();
       INFO(method << ", turned by " << turn.coeffs().transpose());
       // Beams on the borders of rows may fall into the next row.
-      CHECK(differences(here, masks_in_frame(method, sequence, turn.toRotationMatrix())) <
-            here.point_count() / 500);
+      CHECK(toy::different_verdicts(here, masks_in_frame(method, sequence, turn.toRotationMatrix()),
+                                    here.size()) < here.point_count() / 500);
     }
   }
 }

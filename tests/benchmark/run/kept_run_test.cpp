@@ -10,7 +10,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "datasets/layouts.h"
-#include "methods/controls/controls.h"
+#include "tests/benchmark/small_suite.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -31,22 +31,10 @@ struct TwoSequences {
     // Other data than that of `drive`.
     (void)folder.write("data/sequences/05/velodyne/000000.bin",
                        test::floats({5, 0, 0, 0, 5, 11, 0, 0}));
-    static const MethodRegistry methods = [] {
-      MethodRegistry registry;
-      registry.add(noop_entry());
-      return registry;
-    }();
-    Suite suite;
-    for (const std::string& place : {(root / "drive").string(), root.string() + ":05"}) {
-      SequenceOptions options;
-      options.frames = parse_frame_range("0:0");
-      options.name = suite.sequences.empty() ? "drive" : "five";
-      suite.sequences.push_back({place, options});
-    }
-    add_method(suite, "noop", "", methods);
-    add_protocol(suite, "erasor", "");
-    suite.controls = false;
-    suite.threads = 1;
+    Suite suite = test::noop_on(root / "drive");
+    suite.sequences.push_back({root.string() + ":05", suite.sequences[0].options});
+    suite.sequences[0].options.name = "drive";
+    suite.sequences[1].options.name = "five";
     (void)run_suite(suite, {.out = run, .keep_removals = true});
   }
   [[nodiscard]] std::size_t scans_of(const std::string& sequence, const fs::path& data = "") const {

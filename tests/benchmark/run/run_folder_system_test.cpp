@@ -15,6 +15,7 @@
 #include "benchmark/run/folder/cell_store.h"
 #include "benchmark/run/runner.h"
 #include "core/error.h"
+#include "tests/benchmark/small_suite.h"
 #include "tests/core/refusing_locks.h"
 #include "tests/datasets/temporary_folder.h"
 
@@ -41,14 +42,7 @@ class KeptSyncs {
 
 /// The message of a run of one control on one scan, as a run or as one cell.
 std::string said_by_run(const fs::path& out, bool as_cell) {
-  Suite suite;
-  SequenceOptions options;
-  options.frames = parse_frame_range("0:0");
-  suite.sequences.push_back({"street", options});
-  add_method(suite, "noop", "", MethodRegistry::built_in());
-  add_protocol(suite, "erasor", "");
-  suite.controls = false;
-  suite.threads = 1;
+  const Suite suite = test::noop_on("street");
   const std::unique_ptr<std::FILE, void (*)(std::FILE*)> log(
       std::tmpfile(), [](std::FILE* file) { std::fclose(file); });
   Progress progress(ProgressStyle::kLog, log.get());

@@ -12,7 +12,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/files.h"
 #include "core/files/part_name.h"
-#include "methods/controls/controls.h"
+#include "tests/benchmark/small_suite.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -21,25 +21,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const MethodRegistry& controls_only() {
-  static const MethodRegistry registry = [] {
-    MethodRegistry methods;
-    methods.add(noop_entry());
-    methods.add(remove_all_entry());
-    methods.add(oracle_entry());
-    return methods;
-  }();
-  return registry;
-}
-
 Suite one_scan() {
-  Suite suite;
-  SequenceOptions options;
-  options.frames = parse_frame_range("0:0");
-  suite.sequences.push_back({"street", options});
-  add_protocol(suite, "erasor", "");
-  add_controls(suite, controls_only());
-  suite.threads = 1;
+  Suite suite = test::small_suite("0:0");
+  add_controls(suite, MethodRegistry::built_in());
   return suite;
 }
 

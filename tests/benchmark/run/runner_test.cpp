@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "methods/controls/controls.h"
+#include "tests/benchmark/small_suite.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -76,14 +77,9 @@ const MethodRegistry& toys() {
 
 Suite two_scans_with(const std::vector<std::string>& methods,
                      const MethodRegistry& registry = toys()) {
-  Suite suite;
-  SequenceOptions options;
-  options.frames = parse_frame_range("0:1");
-  suite.sequences.push_back({"street", options});
+  Suite suite = test::small_suite("0:1");
   for (const std::string& method : methods) add_method(suite, method, "", registry);
-  add_protocol(suite, "erasor", "");
   add_controls(suite, registry);
-  suite.threads = 1;
   return suite;
 }
 

@@ -33,11 +33,10 @@ Suite small_suite(const char* frames) {
     options.name = name;
     suite.sequences.push_back({"street", options});
   }
-  static const MethodRegistry kept = MethodRegistry::built_in();
-  add_method(suite, "raymoval:online", "", kept);
+  add_method(suite, "raymoval:online", "", MethodRegistry::built_in());
   add_protocol(suite, "erasor", "");
   add_protocol(suite, "dynamicmap", "");
-  add_controls(suite, kept);
+  add_controls(suite, MethodRegistry::built_in());
   return suite;
 }
 

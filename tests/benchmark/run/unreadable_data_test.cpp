@@ -7,7 +7,7 @@
 #include "benchmark/run/runner.h"
 #include "core/files/files.h"
 #include "datasets/simulation/scene/simulated.h"
-#include "methods/controls/controls.h"
+#include "tests/benchmark/small_suite.h"
 #include "tests/benchmark/small_world.h"
 
 using namespace raymoval;
@@ -32,18 +32,8 @@ struct Drive {
 
 /// That drive with a method that removes nothing, and a sequence that can always be read.
 Suite beside_street(const fs::path& drive) {
-  static const MethodRegistry registry = [] {
-    MethodRegistry methods;
-    methods.add(noop_entry());
-    return methods;
-  }();
-  Suite suite;
-  suite.sequences = {{drive.string(), {}}, {"street", {}}};
-  suite.sequences[1].options.frames = parse_frame_range("0:0");
-  add_method(suite, "noop", "", registry);
-  add_protocol(suite, "erasor", "");
-  suite.controls = false;
-  suite.threads = 1;
+  Suite suite = test::noop_on("street");
+  suite.sequences.insert(suite.sequences.begin(), {drive.string(), {}});
   return suite;
 }
 

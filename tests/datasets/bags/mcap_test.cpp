@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/error.h"
-#include "datasets/bags/mcap/mcap_bag.h"
+#include "datasets/bags/bag_formats.h"
 #include "tests/datasets/bags/mcap_records.h"
 #include "tests/datasets/bags/recordings.h"
 #include "tests/datasets/temporary_folder.h"
@@ -66,7 +66,7 @@ TEST_CASE("A chunk that claims more than it can hold is refused before memory is
                                              {McapOp::kChunk, content},
                                              {McapOp::kMessage, message(1, 4, "behind")},
                                              {McapOp::kDataEnd, std::string(4, '\0')}}));
-    return McapBag(path).damage().at(0);
+    return open_mcap(path)->damage().at(0);
   };
   CHECK_THAT(damage(chunk("zstd", 1U << 29U, 0, "abc")), Catch::Contains("1,000 times"));
   CHECK_THAT(damage(chunk("lz4", 100, 0, "abc")), Catch::Contains("lz4"));

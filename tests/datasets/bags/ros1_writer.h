@@ -5,11 +5,12 @@
 #include <lz4frame.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "datasets/bags/ros1/ros1_bag.h"
+#include "datasets/bags/ros1/ros1_file.h"
 
 namespace raymoval::test {
 
@@ -39,7 +40,9 @@ class Ros1Writer {
                          field("count", count) + op(Ros1Op::kChunkInfo),
                      counts());
     ++chunks_;
-    body_ += record(field("compression", ros1_compression_name(compression_)) + op(Ros1Op::kChunk) +
+    const char* compression =
+        std::array{"none", "bz2", "lz4"}[static_cast<std::size_t>(compression_)];
+    body_ += record(field("compression", compression) + op(Ros1Op::kChunk) +
                         field("size", number(static_cast<std::uint32_t>(chunk_.size()))),
                     packed());
     for (const auto& [id, entries] : entries_) {

@@ -7,17 +7,13 @@
 #include "datasets/clouds/cloud_file.h"
 #include "datasets/layouts.h"
 #include "datasets/open_sequence.h"
-#include "tests/datasets/temporary_folder.h"
+#include "tests/datasets/open_folders.h"
 #include "tests/datasets/written_cloud.h"
 
 using namespace raymoval;
 using namespace raymoval::test;
 
 namespace {
-
-std::string path_error(const std::string& path, const SequenceOptions& options = {}) {
-  return message_of<DataError>([&] { open_sequence(path, options); });
-}
 
 void write_drive(const TemporaryFolder& folder, const std::string& at) {
   folder.write(at + "/velodyne/000000.bin", floats({1, 2, 3, 4}));
@@ -32,12 +28,12 @@ TEST_CASE("a folder of scans inside a sequence leads to the sequence", "[layouts
   write_drive(folder, "drive");
   const std::string drive = folder.text() + "/drive";
   for (const char* part : {"/velodyne", "/velodyne/"}) {
-    check_says(path_error(drive + part),
+    check_says(open_error(drive + part),
                {"holds scans only; the sequence they belong to is " + drive + "."});
   }
-  check_says(path_error(drive + "/velodyne/000000.bin"),
+  check_says(open_error(drive + "/velodyne/000000.bin"),
              {"is a scan, expected the folder of its sequence: " + drive + "."});
-  check_says(path_error(drive + "/poses.txt"), {"is a file, expected a folder.", "Known are: "});
+  check_says(open_error(drive + "/poses.txt"), {"is a file, expected a folder.", "Known are: "});
   // With its own poses it is a sequence, also if an option names them.
   SequenceOptions options;
   options.poses = drive + "/poses.txt";
@@ -46,12 +42,12 @@ TEST_CASE("a folder of scans inside a sequence leads to the sequence", "[layouts
   CHECK(open_sequence(drive + "/velodyne", {}).layout == "files");
   // Scans below a folder of another name belong to nothing.
   write_cloud(folder / "loose.bin", {{1, 2, 3}});
-  check_says(path_error(folder.text()), {"there is no pose file 'poses.txt'", "found no .txt"});
+  check_says(open_error(folder.text()), {"there is no pose file 'poses.txt'", "found no .txt"});
 }
 
 TEST_CASE("a name near that of a scene is told", "[layouts]") {
-  check_says(path_error("stret"), {"stret: no such folder.", "Did you mean the scene 'street'?"});
-  CHECK_THAT(path_error("/none/at/all"), !Catch::Contains("Did you mean"));
+  check_says(open_error("stret"), {"stret: no such folder.", "Did you mean the scene 'street'?"});
+  CHECK_THAT(open_error("/none/at/all"), !Catch::Contains("Did you mean"));
 }
 
 TEST_CASE("scenes are told from folders", "[layouts]") {

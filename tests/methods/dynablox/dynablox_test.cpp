@@ -61,15 +61,6 @@ class Corridor {
 
 }  // namespace
 
-TEST_CASE("dynablox: nothing moves in a corridor that stands") {
-  Corridor corridor;
-  corridor.pass(10);
-  CHECK(corridor.masks(Parameters{}).removed_count() == 0);
-  Parameters offline;
-  offline.offline = true;
-  CHECK(corridor.masks(offline).removed_count() == 0);
-}
-
 TEST_CASE("dynablox: a person moves from the first scan in space that was free for a while") {
   // Free in scans 0 to 4, five of them: ever free when scan 5 is judged, and not before.
   Corridor corridor;
@@ -81,19 +72,6 @@ TEST_CASE("dynablox: a person moves from the first scan in space that was free f
   CHECK(corridor.share(masks, 7) > 0.9);
   CHECK(toy::removed_share(corridor.world, masks, 0, 0, 7) < 0.05);
   CHECK(toy::removed_share(corridor.world, masks, 3, 0, 7) == 0.0);
-}
-
-TEST_CASE("dynablox: the burn-in says for how long") {
-  Parameters parameters;
-  parameters.burn_in = 8;
-  for (const int before : {7, 8}) {
-    Corridor corridor;
-    corridor.pass(before);
-    corridor.see_person(5.0, -0.3);
-    const double share =
-        corridor.share(corridor.masks(parameters), static_cast<std::size_t>(before));
-    CHECK((before == 8 ? share > 0.9 : share == 0.0));
-  }
 }
 
 TEST_CASE("dynablox: what stays long enough is no longer taken for moving") {
@@ -120,15 +98,6 @@ TEST_CASE("dynablox: what appears where nobody has looked does not move") {
   corridor.see_person(6.0, -0.3);
   const MaskStore masks = corridor.masks(Parameters{});
   CHECK(corridor.share(masks, 8) < 0.3);
-}
-
-TEST_CASE("dynablox: one scan only") {
-  Corridor corridor;
-  corridor.see_person(5.0, -0.3);
-  Parameters parameters;
-  CHECK(corridor.masks(parameters).removed_count() == 0);
-  parameters.offline = true;
-  CHECK(corridor.masks(parameters).removed_count() == 0);
 }
 
 TEST_CASE("dynablox: parameters that leave nothing free are refused") {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/common/arc_tangent.h"
+#include "methods/dynablox/voxel_kernels.h"
 
 namespace raymoval::dynablox_test {
 namespace {
@@ -39,12 +39,12 @@ std::vector<Cell> around(const Cell& cell, int axes) {
 float arc_tangent(float y, float x) {
   const float across = std::abs(x), up = std::abs(y);
   const float most = std::max(across, up);
-  const float a = std::min(across, up) / std::max(most, kernels::kLeastDivisor);
+  const float a = std::min(across, up) / std::max(most, 1e-30F);
   const float square = a * a;
   float sum = 0.0F;
-  for (const float term : kArcTangentTerms) sum = sum * square + term;
+  for (const float term : kernels::kArcTangentTerms) sum = sum * square + term;
   float angle = sum * a;
-  if (up > across) angle = kernels::kQuarterTurn - angle;
+  if (up > across) angle = 0.5F * kernels::kHalfTurn - angle;
   if (x < 0.0F) angle = kernels::kHalfTurn - angle;
   return std::copysign(angle, y);
 }

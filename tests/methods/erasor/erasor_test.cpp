@@ -50,16 +50,6 @@ TEST_CASE("a bin that the query hardly sees stays", "[erasor]") {
   CHECK(removed_by(three, road_and(kCar), small_grid()).size() == 3);
 }
 
-TEST_CASE("a low object stays in version 3 and goes in version 2", "[erasor]") {
-  // 0.45 m against 0.02 m. In version 2 the top, 0.45, is above th_bin_max_h = 0.2.
-  Points query = road();
-  query[0].z() = 0.02F;
-  Parameters parameters = small_grid();
-  CHECK(removed_by(query, road_and({0.45F}), parameters).empty());
-  parameters.version = 2;
-  CHECK(removed_by(query, road_and({0.45F}), parameters) == Numbers{4});
-}
-
 TEST_CASE("a car under a canopy stays unless the window ends below the leaves", "[erasor]") {
   const std::vector<float> car_and_leaves = {0.6F, 1.0F, 1.5F, 2.6F, 2.9F};
   const Points first = road_and(car_and_leaves);
@@ -71,12 +61,6 @@ TEST_CASE("a car under a canopy stays unless the window ends below the leaves", 
   // Leaves that are hidden from the query go with the car.
   parameters.maximum_height = 3.0;
   CHECK(removed_by(empty_road(), first, parameters) == Numbers{4, 5, 6, 7, 8});
-}
-
-TEST_CASE("a pole of which a far query sees only the ground is lost", "[erasor]") {
-  const Points first = road_and({0.2F, 0.7F, 1.2F, 1.7F, 2.2F, 2.8F});
-  // 0.2 m is above the road by more than 0.15 m: it is removed too.
-  CHECK(removed_by(empty_road(), first, small_grid()) == Numbers{4, 5, 6, 7, 8, 9});
 }
 
 TEST_CASE("heights are above the road below the sensor", "[erasor]") {
@@ -102,24 +86,6 @@ TEST_CASE("a tilted sensor sees the same bins", "[erasor]") {
   scans.add(road_and(kCar), slope);
   scans.add(empty_road(), slope);
   CHECK(removed_points(scans, small_grid())[0] == Numbers{4, 5, 6});
-}
-
-TEST_CASE("version 2 takes the query in where the extents agree", "[erasor]") {
-  // After the first query the map has road from 0 to 0.1 m; then a low object of 0.3 m comes:
-  // ratio 0.33, equal. Version 2 puts it back, version 3 leaves it out.
-  Points uneven = road();
-  uneven[3].z() = 0.1F;
-  Points with_car = uneven, with_low = uneven;
-  for (const float z : kCar) with_car.emplace_back(3.0F, 0.75F, z);
-  with_low.emplace_back(2.7F, 0.7F, 0.3F);
-  const HeldScans scans = scans_of({with_car, uneven, with_low});
-  Parameters parameters = small_grid();
-  parameters.removal_interval = 1;
-  parameters.phase = 1;
-  CHECK(removed_points(scans, parameters)[2] == Numbers{4});
-  parameters.version = 2;
-  CHECK(removed_points(scans, parameters)[2].empty());
-  CHECK(removed_points(scans, parameters)[0] == Numbers{4, 5, 6});
 }
 
 TEST_CASE("the own car's points answer through voxels that others filled", "[erasor]") {

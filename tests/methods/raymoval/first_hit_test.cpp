@@ -10,33 +10,6 @@
 namespace raymoval::raymoval_test {
 using namespace raymoval::raymoval_method;
 
-TEST_CASE("eq. 7: a ray meets the near face of the first voxel") {
-  OccupancyMap map(0.2);
-  map.insert({10, 0, 0});  // x from 2.0 to 2.2
-  map.insert({20, 0, 0});
-  const auto hit = cast_ray(map, {{0.1, 0.1, 0.1}, {1, 0, 0}}, {0.0, 60.0});
-  REQUIRE(hit);
-  CHECK(hit->range == Approx(1.9));
-  CHECK(hit->voxel == VoxelIndex(10, 0, 0));
-  // From the other side the far voxel comes first; its face is at 4.2.
-  const auto back = cast_ray(map, {{9.1, 0.1, 0.1}, {-1, 0, 0}}, {0.0, 60.0});
-  REQUIRE(back);
-  CHECK(back->range == Approx(9.1 - 4.2));
-  CHECK(back->voxel == VoxelIndex(20, 0, 0));
-}
-
-TEST_CASE("a ray ends at the maximum range and starts at the ego radius") {
-  OccupancyMap map(0.2);
-  map.insert({0, 0, 0});
-  map.insert({10, 0, 0});
-  const Ray ray{{0.1, 0.1, 0.1}, {1, 0, 0}};
-  CHECK(cast_ray(map, ray, {0.0, 60.0})->voxel == VoxelIndex(0, 0, 0));  // It starts inside.
-  CHECK(cast_ray(map, ray, {0.5, 60.0})->voxel == VoxelIndex(10, 0, 0));
-  CHECK_FALSE(cast_ray(map, ray, {0.5, 1.8}));
-  CHECK(cast_ray(map, ray, {0.5, 1.95}));
-  CHECK_FALSE(cast_ray(map, {{0.1, 0.1, 0.1}, {0, 0, 1}}, {0.5, 60.0}));
-}
-
 TEST_CASE("a voxel that is entered at the very end of the range counts, at either end") {
   // In the sensor's own brick, in the next one, and behind an empty one: the middle of a voxel is
   // half a metre from its wall.
@@ -145,7 +118,7 @@ std::optional<FirstHit> brute_force(const std::vector<VoxelIndex>& voxels, doubl
 
 }  // namespace
 
-TEST_CASE("first hits equal those of a test of every voxel") {
+TEST_CASE("eq. 7: first hits equal those of a test of every voxel") {
   std::mt19937 random(7);
   const auto pick = [&](double low, double high) {
     return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
@@ -162,13 +135,14 @@ TEST_CASE("first hits equal those of a test of every voxel") {
                               static_cast<int>(pick(-20, 20)));
       if (map.insert(voxel)) voxels.push_back(voxel);
     }
+    const double nearest = round % 4 == 1 ? 0.0 : 0.5;  // 0: also the voxel that a ray starts in.
     for (int k = 0; k < 200; ++k) {
       Ray ray;
       ray.origin =
           centre.cast<double>() * 0.2 + Eigen::Vector3d(pick(-3, 3), pick(-3, 3), pick(-3, 3));
       ray.direction = Eigen::Vector3d(pick(-1, 1), pick(-1, 1), pick(-1, 1)).normalized();
-      const auto expected = brute_force(voxels, 0.2, ray, 0.5, 6.0);
-      const auto found = cast_ray(map, ray, {0.5, 6.0});
+      const auto expected = brute_force(voxels, 0.2, ray, nearest, 6.0);
+      const auto found = cast_ray(map, ray, {nearest, 6.0});
       REQUIRE(found.has_value() == expected.has_value());
       if (!found) continue;
       CHECK(found->range == Approx(expected->range).margin(1e-6));

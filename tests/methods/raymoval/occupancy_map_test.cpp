@@ -79,22 +79,6 @@ TEST_CASE("the map holds what a plain set holds, whatever comes and goes") {
   }
 }
 
-TEST_CASE("a map tells at least the memory of what is in it") {
-  OccupancyMap map(0.2);
-  for (int brick = 0; brick < 100; ++brick) {
-    // Four loose voxels in each brick: as many boxes.
-    for (const int corner : {0, 2, 4, 6}) map.insert({8 * brick + corner, corner, 0});
-  }
-  map.update_boxes(1);
-  std::size_t boxes = 0;
-  for (OccupancyMap::Slot slot = 0; slot < map.brick_count(); ++slot) {
-    boxes += map.boxes(slot).size();
-  }
-  REQUIRE(boxes == 400);
-  CHECK(map.memory_bytes() > 100 * sizeof(Brick) + 400 * sizeof(BrickBox) +
-                                 100 * sizeof(OccupancyMap::BrickHead) + 100 * 16);
-}
-
 TEST_CASE("a voxel nearby is found across the borders of bricks") {
   Random random(10);
   OccupancyMap map(0.2);

@@ -58,12 +58,6 @@ TEST_CASE("a box that arrives stands in front of the map and is flagged at once"
   CHECK(toy::removed_share(world, masks, kWallOwner, 0, 9) < 0.01);
 }
 
-TEST_CASE("online knows nothing of later scans") {
-  const World world = box_that_leaves();
-  const MaskStore masks = run("online", world);
-  CHECK(toy::removed_share(world, masks, kOtherOwner, 0, 4) == 0.0);
-}
-
 TEST_CASE("beams far apart are no witnesses for each other") {
   // A sign hangs at the range of the box, 1.5 degrees above it, and stays when the box leaves. A
   // window from one beam to the next, 4 degrees either way, would find it and keep the box.

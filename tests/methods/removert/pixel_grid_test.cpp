@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "methods/removert/pixel_grid.h"
-
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "methods/removert/scan_image.h"
 #include "tests/methods/removert/point_world.h"
 
 namespace raymoval::removert_test {
