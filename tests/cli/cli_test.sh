@@ -418,9 +418,9 @@ holds "another seed gives other scans" test "$(cmp -s sim/town/velodyne/000001.b
 expect 2 "not an empty folder" simulate town -o sim/town "${tiny[@]}"
 expect 2 "Did you mean 'town'" simulate tow -o other_sim "${tiny[@]}"
 expect 2 "Did you mean 'vlp16'" simulate town -o other_sim --sensor vlp1
-expect 2 "'skewed'" simulate town:rolling=skew -o other_sim
-expect 2 "pose_noise" simulate town:pose_noise=-1 -o other_sim
-for wrong in "--scans 0" "--scans two" "--seed -1" "--threads 0"; do
+expect 2 "'skewed'" simulate town -o other_sim --rolling skew
+expect 2 "contradict" simulate town -o other_sim --perfect-poses --pose-noise 1
+for wrong in "--scans 0" "--scans two" "--seed -1" "--pose-noise -1" "--threads 0"; do
   # shellcheck disable=SC2086
   expect 2 "${wrong% *}" simulate town -o other_sim $wrong
 done

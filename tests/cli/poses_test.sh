@@ -8,8 +8,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export RAYMOVAL_CACHE=$work/cache
 
 sparse_vlp16 >sparse.json
-expect 0 "14 scans" simulate suburb:pose_noise=0 -o drive --scans 14 --sensor sparse.json --seed 5 \
-  --quiet
+expect 0 "14 scans" simulate suburb -o drive --scans 14 --sensor sparse.json --seed 5 \
+  --perfect-poses --quiet
 mkdir scans
 cp drive/velodyne/*.bin scans
 online=(--method raymoval:online --quiet)
@@ -42,7 +42,7 @@ expect 2 "--T-sensor has no effect with --poses estimate" \
   inspect scans --poses estimate --T-sensor 0,0,0,0,0,0,1 --quiet
 expect 2 "are in the world frame" inspect scans --poses estimate --points world --quiet
 expect 2 "missing.txt" inspect scans --poses refine:missing.txt --quiet
-expect 0 "14 scans" simulate warehouse:pose_noise=0 -o other --scans 14 --sensor sparse.json --quiet
+expect 0 "14 scans" simulate warehouse -o other --scans 14 --sensor sparse.json --perfect-poses --quiet
 cp other/velodyne/000013.bin scans/000014.bin
 expect 2 "scan 000014: does not overlap enough with the scans before it" \
   clean scans --poses estimate "${online[@]}" -o c.pcd

@@ -12,7 +12,8 @@ namespace raymoval {
 namespace {
 
 struct SimulateFlags {
-  std::string scene, output, seed, scans, sensor;
+  std::string scene, output, seed, scans, sensor, pose_noise, rolling;
+  bool perfect_poses = false;
   WorkFlags work;
 };
 
@@ -21,6 +22,16 @@ SimulationOptions options_of(const SimulateFlags& flags) {
   if (!flags.seed.empty()) options.seed = parse_seed("--seed", flags.seed);
   if (!flags.scans.empty()) options.scans = parse_scan_count("--scans", flags.scans);
   if (!flags.sensor.empty()) options.sensor = flags.sensor;
+  if (!flags.rolling.empty()) options.rolling = parse_rolling("--rolling", flags.rolling);
+  if (!flags.pose_noise.empty()) {
+    options.pose_noise = parse_pose_noise("--pose-noise", flags.pose_noise);
+  }
+  if (flags.perfect_poses) {
+    if (!flags.pose_noise.empty() && options.pose_noise > 0.0) {
+      throw UsageError("--perfect-poses and --pose-noise contradict each other; leave one out.");
+    }
+    options.pose_noise = 0.0;
+  }
   // Unknown names are reported before anything is made.
   (void)simulated::find_world(options.scene);
   if (!options.sensor.empty()) (void)simulated::find_sensor(options.sensor);
@@ -74,15 +85,18 @@ Command add_simulate_command(CommandParser& program) {
   options.add("--scans", "N", flags->scans, "The number of scans (default: as in the scene)");
   options.add("--sensor", "NAME", flags->sensor,
               "A sensor (see `raymoval list simulated-sensors`) or a sensor file");
+  options.add_flag("--perfect-poses", flags->perfect_poses,
+                   "Write poses without error, as with --pose-noise 0");
+  options.add("--pose-noise", "FACTOR", flags->pose_noise,
+              "Scale of the error of the poses; 1 (default) is a good odometry");
+  options.add("--rolling", "KIND", flags->rolling,
+              "skewed or corrected: a scan is taken while the sensor moves (default: none)");
   flags->work.add_to(options);
   options.set_footer(
       "The same options give the same bytes. Commands that take a sequence also take a scene by\n"
       "name, such as town:scans=60,seed=3, and simulate it once into the cache folder\n"
       "($RAYMOVAL_CACHE, else ~/.cache/raymoval). Machines and containers may share the cache.\n"
       "A cached scene that is not whole is simulated again.\n"
-      "Keys behind the name change a scene: pose_noise=0 gives poses without error (1, the\n"
-      "default, is a good odometry); rolling=skewed or corrected takes each scan while the\n"
-      "sensor moves;\n"
       "roll, pitch and yaw turn the sensor in the vehicle's frame, in degrees: town:roll=90 has "
       "it\n"
       "on its side, roll=180 upside down, pitch=90 looking down. The vehicle's path stays.\n"
@@ -90,7 +104,7 @@ Command add_simulate_command(CommandParser& program) {
       "  raymoval simulate town -o data/town\n"
       "  raymoval simulate crossing -o data/crossing --scans 60 --sensor vlp16 --seed 3\n"
       "  raymoval simulate town:roll=90 -o data/side\n"
-      "  raymoval simulate highway:rolling=skewed,pose_noise=0 -o data/skewed");
+      "  raymoval simulate highway -o data/skewed --rolling skewed --perfect-poses");
   return {options.name(), [flags] { return simulate(*flags); }};
 }
 
