@@ -93,7 +93,7 @@ Points collect_points(const PageRequest& request) {
     if (any_kept(*request.run, name)) sequences.push_back(name);
   }
   for (const std::string& name : sequences) {
-    if (request.cancel != nullptr && request.cancel->load()) throw Cancelled();
+    throw_if_cancelled(request.cancel);
     try {
       add_scene(request, name, point_limit(request, sequences, name), points);
     } catch (const Cancelled&) {

@@ -78,8 +78,8 @@ inline constexpr std::size_t kSearchedScans = 10;
 
 struct MotionSearch {
   TriedMotion given;  ///< Of the given poses.
-  TriedMotion alike;  ///< The best of those that end like the given poses; it may be `given`.
-  TriedMotion other;  ///< The best of those that do not; without overlap if there is none.
+  TriedMotion alike;  ///< The best motion that ends like the given poses; it may be `given`.
+  TriedMotion other;  ///< The best motion that ends elsewhere; without overlap if there is none.
 
   /// Advantage of the other motion, as a difference of overlaps.
   [[nodiscard]] double advantage() const { return other.overlap - given.overlap; }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/floor.h"
 #include "core/scan/cell_set.h"
 #include "core/scan/voxel_key.h"
 #include "core/scan/voxel_numbers.h"
@@ -22,10 +23,6 @@ inline VoxelIndex cell_index(const Eigen::Vector3d& point, double inverse_size) 
   const bool is_inside = std::abs(place.x()) < kVoxelLimit && std::abs(place.y()) < kVoxelLimit &&
                          std::abs(place.z()) < kVoxelLimit;
   if (!is_inside) return voxel_index(point, inverse_size);
-  const auto floor_of = [](double value) {
-    const int whole = static_cast<int>(value);
-    return whole - (static_cast<double>(whole) > value ? 1 : 0);
-  };
   return {floor_of(place.x()), floor_of(place.y()), floor_of(place.z())};
 }
 

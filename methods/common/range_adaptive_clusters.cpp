@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/floor.h"
 #include "core/scan/voxel_key.h"
 #include "methods/common/disjoint_sets.h"
 
@@ -102,10 +103,6 @@ void sort_by_key(std::vector<Run>& runs) {
 /// `voxel_index` without a library call for each coordinate.
 VoxelIndex cell_at(const Eigen::Vector3d& in_cells) {
   if (!(in_cells.cwiseAbs().maxCoeff() < kVoxelLimit)) return voxel_index(in_cells, 1.0);
-  const auto floor_of = [](double value) {
-    const int whole = static_cast<int>(value);
-    return whole - (value < whole ? 1 : 0);
-  };
   return {floor_of(in_cells.x()), floor_of(in_cells.y()), floor_of(in_cells.z())};
 }
 

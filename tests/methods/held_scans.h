@@ -63,32 +63,29 @@ class HeldScans : public ScanSource {
 };
 
 /// The scans of another source, each of which is changed.
-class ChangedScans : public ScanSource {
+class ChangedScans : public DerivedSource {
  public:
   using Change = std::function<void(Scan&)>;
   ChangedScans(std::shared_ptr<const ScanSource> scans, Change change)
-      : scans_(std::move(scans)), change_(std::move(change)) {}
+      : DerivedSource(std::move(scans)), change_(std::move(change)) {}
   /// @param scans must outlive this object
   ChangedScans(const ScanSource& scans, Change change)
       : ChangedScans({std::shared_ptr<void>(), &scans}, std::move(change)) {}
 
-  [[nodiscard]] std::size_t size() const override { return scans_->size(); }
   [[nodiscard]] Scan load(std::size_t i) const override {
-    Scan scan = scans_->load(i);
+    Scan scan = whole_->load(i);
     change_(scan);
     return scan;
   }
   [[nodiscard]] Pose pose(std::size_t i) const override {
     Scan without_points;
     without_points.index = i;
-    without_points.T_world_sensor = scans_->pose(i);
+    without_points.T_world_sensor = whole_->pose(i);
     change_(without_points);
     return without_points.T_world_sensor;
   }
-  [[nodiscard]] const SensorModel& sensor() const override { return scans_->sensor(); }
 
  private:
-  std::shared_ptr<const ScanSource> scans_;
   Change change_;
 };
 

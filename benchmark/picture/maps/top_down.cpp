@@ -51,7 +51,7 @@ void for_each_shown_point(const Sequence& sequence, const ScanSource& scans,
   const RangeLimits range_m(sequence.range_m);
   if (context.progress != nullptr) context.progress->begin(task, scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (context.cancel != nullptr && context.cancel->load()) throw Cancelled();
+    throw_if_cancelled(context.cancel);
     const Scan scan = scans.load(i);
     const std::vector<std::uint32_t> labels = sequence.labels->labels(scan);
     std::vector<Mask> removed;

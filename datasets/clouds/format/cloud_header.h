@@ -112,7 +112,8 @@ Cloud header_cloud(const CloudHeader& header, const CloudBytes& file,
 /// @throws DataError as `header_cloud`, also for a number out of range of the field's type
 PointRecords header_records(const CloudHeader& header, const CloudBytes& file);
 
-/// A format of files with a header, without what is its own when it is written.
+/// A format whose files begin with a header. The caller adds the parts of writing that differ from
+/// format to format.
 /// @tparam parse the header of a file, from its bytes and its path
 template <class Encoder, CloudHeader (*parse)(std::string_view, const std::filesystem::path&)>
 CloudFormat header_format(const std::string& extension) {

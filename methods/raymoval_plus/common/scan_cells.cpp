@@ -5,17 +5,11 @@
 #include <array>
 #include <atomic>
 
+#include "core/floor.h"
 #include "core/parallel.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
-
-/// The largest whole number that is not above `value`. `std::floor` is a call on machines of which
-/// no more than SSE2 is asked.
-std::int32_t floor_of(double value) {
-  const auto number = static_cast<std::int32_t>(value);
-  return number - static_cast<std::int32_t>(value < number);
-}
 
 /// Throws the error of the first point that is not in the lattice.
 void throw_outside(const Scan& scan, const Eigen::Vector3d& cells_a_metre) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "core/floor.h"
 
 namespace raymoval::raymoval_plus_method {
 namespace {
@@ -42,12 +43,6 @@ inline float arc_tangent(float y, float x) {
   angle = b > a ? 0.5F * kPi - angle : angle;
   angle = x < 0.0F ? kPi - angle : angle;
   return y < 0.0F ? -angle : angle;
-}
-
-/// The largest whole number that is not above a value. `std::floor` is a call without SSE4.
-inline int floor_of(float value) {
-  const int whole = static_cast<int>(value);
-  return whole - (value < static_cast<float>(whole) ? 1 : 0);
 }
 
 }  // namespace

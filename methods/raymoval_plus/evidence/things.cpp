@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/parallel.h"
 #include "methods/raymoval_plus/evidence/evidence.h"
@@ -67,7 +66,7 @@ Surroundings::Surroundings(double voxel_size)
 
 void Surroundings::look_at(std::uint32_t block, const EvidenceMap& map) {
   const VoxelIndex region = region_of(map.blocks().block_index(block));
-  if (!std::exchange(is_empty_, false) && region == region_) return;
+  if (region_ == region) return;
   region_ = region;
   std::fill(presences_.begin(), presences_.end(), Presence{});
   corner_ = region * kSide - VoxelIndex::Constant(reach_);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "methods/raymoval_plus/evidence/evidence_map.h"
@@ -50,8 +51,7 @@ class Surroundings {
   void for_cells_of_thing(const VoxelIndex& cell, Visit&& visit) const;
 
   int reach_, side_;
-  bool is_empty_ = true;
-  VoxelIndex region_ = VoxelIndex::Zero();
+  std::optional<VoxelIndex> region_;        ///< The one that was read last.
   VoxelIndex corner_ = VoxelIndex::Zero();  ///< The lowest of the cells.
   std::vector<Presence> presences_;         ///< Of each cell, x fastest, then y.
   std::vector<std::uint32_t> voxels_;
